@@ -1,0 +1,78 @@
+// perimorph run | check | params: the command line. The adaptive loop is in packages/fracture/src/adaptive_loop.cpp.
+
+#include <CLI/CLI.hpp>
+#include <Tpetra_Core.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/fracture/run.hpp"
+
+namespace {
+
+using namespace perimorph;
+
+struct Arguments {
+  std::string case_file, output;
+  std::vector<std::string> overrides;
+  bool quiet = false;
+};
+
+/// Rank 0 reads the case file; a mistake in it is an error on all ranks, and no rank reads on its own.
+fracture::Case read_case(const base::Comm& comm, const Arguments& arguments) {
+  fracture::Case input;
+  base::on_all_ranks(comm, [&] { input = fracture::read_case(arguments.case_file, arguments.overrides); });
+  return input;
+}
+
+void add_case_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("case", arguments.case_file, "Case file (XML)")->required();
+  command.add_option("--set", arguments.overrides, "Override a parameter: \"Section/Sub/Name=value\"")
+      ->allow_extra_args(false);
+  command.add_flag("--quiet", arguments.quiet, "Print warnings and errors only");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Perimorph: where cracks start and where they run in brittle bodies");
+  app.require_subcommand(1);
+  Arguments arguments;
+  auto* run = app.add_subcommand("run", "Run a case to its last increment");
+  add_case_options(*run, arguments);
+  run->add_option("--output", arguments.output, "Folder for the results (default: results/<case>)");
+  auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what it would cost");
+  add_case_options(*check, arguments);
+  app.add_subcommand("params", "Print every parameter with default, range, unit and meaning");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+
+  Tpetra::ScopeGuard mpi(&argc, &argv);
+  const auto comm = Tpetra::getDefaultComm();
+  const auto fail = [&](const char* kind, const std::exception& error, int status) {
+    if (comm->getRank() == 0) std::fprintf(stderr, "perimorph: %s%s\n", kind, error.what());
+    return status;
+  };
+  try {
+    if (app.got_subcommand("params")) {
+      if (comm->getRank() == 0) std::fputs(fracture::describe_schema().c_str(), stdout);
+      return 0;
+    }
+    const fracture::Case input = read_case(*comm, arguments);
+    if (app.got_subcommand(check)) {
+      fracture::check(comm, input, arguments.quiet);
+    } else {
+      fracture::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output, arguments.quiet);
+    }
+    return 0;
+  } catch (const base::UserError& error) {
+    return fail("", error, 2);
+  } catch (const base::ComputationError& error) {
+    return fail("the computation could not go on: ", error, 3);
+  } catch (const std::exception& error) {
+    return fail("this is a bug: ", error, 1);
+  }
+}

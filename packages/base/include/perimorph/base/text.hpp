@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace perimorph::base {
+
+/// " - did you mean "..."?" with the candidate nearest to the name, or "" if none is near (Levenshtein distance
+/// up to the larger of 2 and a third of the length).
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates);
+
+/// The texts joined by a separator, each in double quotes.
+std::string quoted_list(const std::vector<std::string>& texts, const std::string& separator = ", ");
+
+}  // namespace perimorph::base

@@ -1,0 +1,49 @@
+#include "perimorph/base/text.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::base {
+
+namespace {
+
+/// Levenshtein distance, ignoring case.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const bool same = std::tolower(static_cast<unsigned char>(a[i])) == std::tolower(static_cast<unsigned char>(b[j]));
+      const std::size_t substituted = diagonal + (same ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string* best = nullptr;
+  std::size_t distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const auto& candidate : candidates) {
+    const std::size_t d = edit_distance(name, candidate);
+    if (d < distance) {
+      distance = d;
+      best = &candidate;
+    }
+  }
+  return best == nullptr ? "" : fmt::format(" - did you mean \"{}\"?", *best);
+}
+
+std::string quoted_list(const std::vector<std::string>& texts, const std::string& separator) {
+  std::string list;
+  for (const auto& text : texts) list += fmt::format("{}\"{}\"", list.empty() ? "" : separator, text);
+  return list;
+}
+
+}  // namespace perimorph::base

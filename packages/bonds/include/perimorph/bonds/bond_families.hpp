@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "perimorph/bonds/visibility.hpp"
+#include "perimorph/materials/micromodulus.hpp"
+#include "perimorph/morphing/morphing_field.hpp"
+
+namespace perimorph::bonds {
+
+/// Two elements with bonds between their points; the one with the lower global id comes first, so that every rank
+/// computes a bond from the same numbers in the same order. An element pairs with itself too.
+struct ElementPair {
+  int first, second;  ///< local elements
+};
+
+/// All bonds that touch this rank's active elements and of which an end has alpha > 0. They are kept by pairs of
+/// elements: bonds of pair p are first_bond(p) ... first_bond(p+1)-1. The broken set lives here.
+template <int dim>
+class BondFamilies {
+ public:
+  using Bond = std::size_t;
+
+  /// Local. The arguments must outlive this.
+  /// @param active elements around the nodes that this rank owns (mesh::active_elements)
+  BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, std::vector<char> active,
+               const materials::Micromodulus& micromodulus, const std::vector<mesh::CrackFacet<dim>>& pre_cracks);
+
+  /// Adds the bonds of elements that have come to carry bonds; those already known are passed over. Local.
+  void extend(const std::vector<int>& elements);
+
+  int n_pairs() const { return static_cast<int>(pairs_.size()); }
+  Bond n_bonds() const { return stiffness_.size(); }
+  const ElementPair& pair(int p) const { return pairs_[p]; }
+  Bond first_bond(int p) const { return first_bond_[p]; }
+  const std::vector<int>& pairs_of(int element) const { return pairs_of_[element]; }
+  bool is_active(int element) const { return active_[element]; }
+
+  /// Points at the bond's ends, counted within their elements.
+  int first_end(Bond b) const { return ends_[b] / elements::max_points; }
+  int second_end(Bond b) const { return ends_[b] % elements::max_points; }
+  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking.
+  double stiffness(Bond b) const { return stiffness_[b]; }
+  bool broken(Bond b) const { return broken_[b]; }
+  void set_broken(int pair, Bond b);
+  int pair_of(Bond b) const;
+
+  /// Share of a point's bonds, by volume, that are broken (Silling and Askari 2005). For active elements.
+  double damage(int point) const { return lost_volume_[point] / std::max(family_volume_[point], 1e-300); }
+  /// Whether a bond of the element has broken. For active elements.
+  bool is_damaged(int element) const { return damaged_[element]; }
+
+  /// Smallest and largest alpha over each point's neighbourhood, itself included. For active elements.
+  struct Extremes {
+    std::vector<double> smallest, largest;
+  };
+  Extremes neighbourhood_extremes(const morphing::MorphingField<dim>& alpha) const;
+
+  /// Breaks every intact bond whose stretch reaches the critical one [WHL19, eq. 6, 7], between two different elements
+  /// that both may break. Returns them, ascending. Local: every rank that holds a bond decides alike.
+  /// @param displacements at the points, [length]; only those of elements with bonds are read
+  std::vector<Bond> break_overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
+                                        const std::vector<morphing::ElementClass>& classes);
+
+ private:
+  const mesh::Mesh<dim>& mesh_;
+  const elements::MaterialPoints<dim>& points_;
+  std::vector<char> active_;
+  materials::Micromodulus micromodulus_;
+  Visibility<dim> visibility_;
+  std::vector<base::Point<dim>> centroids_;
+  std::vector<double> radii_;
+  double largest_radius_ = 0.;
+  std::unique_ptr<base::PointTree<dim>> tree_;
+  std::vector<char> searched_;
+
+  std::vector<ElementPair> pairs_;
+  std::vector<Bond> first_bond_ = {0};
+  std::vector<std::vector<int>> pairs_of_;
+  std::vector<std::uint16_t> ends_;
+  std::vector<double> stiffness_;
+  std::vector<std::uint8_t> broken_;
+  std::vector<double> family_volume_, lost_volume_;
+  std::vector<char> damaged_;
+
+  void add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles);
+};
+
+}  // namespace perimorph::bonds

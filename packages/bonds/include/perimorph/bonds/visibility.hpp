@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "perimorph/base/point_tree.hpp"
+#include "perimorph/mesh/mesh.hpp"
+#include "perimorph/mesh/pre_crack.hpp"
+
+namespace perimorph::bonds {
+
+/// Which points see each other: a bond whose segment leaves the body or crosses a pre-crack does not exist.
+template <int dim>
+class Visibility {
+ public:
+  using Facet = mesh::CrackFacet<dim>;  ///< a segment in 2D, a triangle in 3D
+
+  /// Obstacles are the mesh's boundary and the pre-cracks. Local.
+  Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet>& pre_cracks);
+
+  /// The obstacles that come within `reach` of a point: candidates for blocks(). Local.
+  std::vector<Facet> near(const base::Point<dim>& center, double reach) const;
+
+  /// Whether one of the facets cuts the segment between x and p; touching counts.
+  static bool blocks(const std::vector<Facet>& facets, const base::Point<dim>& x, const base::Point<dim>& p);
+
+ private:
+  std::vector<Facet> facets_;
+  double largest_radius_ = 0.;  ///< of a facet, about its centroid
+  std::unique_ptr<base::PointTree<dim>> tree_;
+};
+
+}  // namespace perimorph::bonds

@@ -1,0 +1,137 @@
+#include "perimorph/bonds/bond_families.hpp"
+
+#include <algorithm>
+
+namespace perimorph::bonds {
+
+using base::Point;
+
+template <int dim>
+BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                                std::vector<char> active, const materials::Micromodulus& micromodulus,
+                                const std::vector<mesh::CrackFacet<dim>>& pre_cracks)
+    : mesh_(mesh),
+      points_(points),
+      active_(std::move(active)),
+      micromodulus_(micromodulus),
+      visibility_(mesh, pre_cracks),
+      searched_(mesh.n_elements(), 0),
+      pairs_of_(mesh.n_elements()),
+      family_volume_(points.size(), 0.),
+      lost_volume_(points.size(), 0.),
+      damaged_(mesh.n_elements(), 0) {
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    centroids_.push_back(mesh::centroid(mesh, e));
+    radii_.push_back(mesh::radius(mesh, e));
+    largest_radius_ = std::max(largest_radius_, radii_.back());
+  }
+  tree_ = std::make_unique<base::PointTree<dim>>(centroids_);
+}
+
+template <int dim>
+void BondFamilies<dim>::extend(const std::vector<int>& elements) {
+  for (const int e : elements) {
+    if (searched_[e]) continue;
+    searched_[e] = 1;
+    const double reach = micromodulus_.horizon + radii_[e];
+    const auto obstacles = visibility_.near(centroids_[e], reach);
+    for (const int f : tree_->within(centroids_[e], reach + largest_radius_)) {
+      const bool already_paired = searched_[f] && f != e;
+      if (already_paired || !(active_[e] || active_[f])) continue;
+      if ((centroids_[e] - centroids_[f]).norm() > reach + radii_[f]) continue;
+      const bool in_order = mesh_.element_ids[e] <= mesh_.element_ids[f];
+      add_pair(in_order ? e : f, in_order ? f : e, obstacles);
+    }
+  }
+}
+
+template <int dim>
+void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles) {
+  const int first_a = points_.first(a), first_b = points_.first(b);
+  for (int qa = 0; qa < points_.count(a); ++qa) {
+    for (int qb = a == b ? qa + 1 : 0; qb < points_.count(b); ++qb) {
+      const int i = first_a + qa, j = first_b + qb;
+      const double c0 = micromodulus_((points_.position(j) - points_.position(i)).norm());
+      if (c0 == 0.) continue;
+      // A bond inside one element is inside the body: elements are convex.
+      if (a != b && Visibility<dim>::blocks(obstacles, points_.position(i), points_.position(j))) continue;
+      ends_.push_back(static_cast<std::uint16_t>(qa * elements::max_points + qb));
+      stiffness_.push_back(c0 * points_.weight(i) * points_.weight(j));
+      family_volume_[i] += points_.weight(j);
+      family_volume_[j] += points_.weight(i);
+    }
+  }
+  if (stiffness_.size() == first_bond_.back()) return;
+  broken_.resize(stiffness_.size(), 0);
+  pairs_of_[a].push_back(n_pairs());
+  if (b != a) pairs_of_[b].push_back(n_pairs());
+  pairs_.push_back({a, b});
+  first_bond_.push_back(stiffness_.size());
+}
+
+template <int dim>
+int BondFamilies<dim>::pair_of(Bond b) const {
+  return static_cast<int>(std::upper_bound(first_bond_.begin(), first_bond_.end(), b) - first_bond_.begin()) - 1;
+}
+
+template <int dim>
+void BondFamilies<dim>::set_broken(int p, Bond b) {
+  const auto [first, second] = pairs_[p];
+  const int i = points_.first(first) + first_end(b), j = points_.first(second) + second_end(b);
+  broken_[b] = 1;
+  damaged_[first] = damaged_[second] = 1;
+  lost_volume_[i] += points_.weight(j);
+  lost_volume_[j] += points_.weight(i);
+}
+
+template <int dim>
+typename BondFamilies<dim>::Extremes BondFamilies<dim>::neighbourhood_extremes(
+    const morphing::MorphingField<dim>& alpha) const {
+  Extremes extremes;
+  for (int i = 0; i < points_.size(); ++i) extremes.smallest.push_back(alpha(i));
+  extremes.largest = extremes.smallest;
+  const auto include = [&](int i, double value) {
+    extremes.smallest[i] = std::min(extremes.smallest[i], value);
+    extremes.largest[i] = std::max(extremes.largest[i], value);
+  };
+  for (int p = 0; p < n_pairs(); ++p) {
+    const int first_a = points_.first(pairs_[p].first), first_b = points_.first(pairs_[p].second);
+    for (Bond b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
+      const int i = first_a + first_end(b), j = first_b + second_end(b);
+      include(i, alpha(j));
+      include(j, alpha(i));
+    }
+  }
+  return extremes;
+}
+
+template <int dim>
+std::vector<typename BondFamilies<dim>::Bond> BondFamilies<dim>::break_overstretched(
+    const std::vector<Point<dim>>& displacements, double critical_stretch,
+    const std::vector<morphing::ElementClass>& classes) {
+  // s = |xi + eta| / |xi| - 1 >= s_crit, without the roots   [WHL19, eq. 6, 7]
+  const double critical = (1. + critical_stretch) * (1. + critical_stretch);
+  std::vector<Bond> newly_broken;
+  for (int p = 0; p < n_pairs(); ++p) {
+    const auto [first, second] = pairs_[p];
+    if (first == second || classes[first] != morphing::ElementClass::pd || classes[second] != morphing::ElementClass::pd) {
+      continue;
+    }
+    const int first_a = points_.first(first), first_b = points_.first(second);
+    for (Bond b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
+      if (broken_[b]) continue;
+      const int i = first_a + first_end(b), j = first_b + second_end(b);
+      const Point<dim> xi = points_.position(j) - points_.position(i);
+      const Point<dim> eta = displacements[j] - displacements[i];
+      if ((xi + eta).squaredNorm() < critical * xi.squaredNorm()) continue;
+      newly_broken.push_back(b);
+    }
+  }
+  for (const Bond b : newly_broken) set_broken(pair_of(b), b);
+  return newly_broken;
+}
+
+template class BondFamilies<2>;
+template class BondFamilies<3>;
+
+}  // namespace perimorph::bonds

@@ -1,0 +1,78 @@
+#include "perimorph/bonds/visibility.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace perimorph::bonds {
+
+namespace {
+
+template <int dim>
+base::Point<dim> centroid(const mesh::CrackFacet<dim>& facet) {
+  base::Point<dim> c = base::Point<dim>::Zero();
+  for (const auto& corner : facet) c += corner / dim;
+  return c;
+}
+
+template <int dim>
+double radius(const mesh::CrackFacet<dim>& facet) {
+  double r = 0.;
+  for (const auto& corner : facet) r = std::max(r, (corner - centroid<dim>(facet)).norm());
+  return r;
+}
+
+/// Solves x + t (p - x) = f0 + sum_i s_i (f_i - f0); they meet if t, s_i and 1 - sum s_i are not negative and t <= 1.
+template <int dim>
+bool meets(const mesh::CrackFacet<dim>& facet, const base::Point<dim>& x, const base::Point<dim>& p) {
+  constexpr double slack = 1e-9;  // relative to bond and facet: a bond through a facet's corner is cut
+  Eigen::Matrix<double, dim, dim> directions;
+  directions.col(0) = p - x;
+  double scale = directions.col(0).norm();
+  for (int i = 1; i < dim; ++i) {
+    directions.col(i) = facet[0] - facet[i];
+    scale *= directions.col(i).norm();
+  }
+  if (std::abs(directions.determinant()) <= 1e-12 * scale) return false;  // parallel
+  const base::Point<dim> solution = directions.inverse() * (facet[0] - x);
+  const double t = solution[0];
+  const auto s = solution.template tail<dim - 1>();
+  return t >= -slack && t <= 1. + slack && s.minCoeff() >= -slack && s.sum() <= 1. + slack;
+}
+
+}  // namespace
+
+template <int dim>
+Visibility<dim>::Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet>& pre_cracks) : facets_(pre_cracks) {
+  for (const auto& side : mesh.boundary) {
+    const auto corners = mesh::corner_points(mesh, side);
+    for (std::size_t k = dim - 1; k < corners.size(); ++k) {  // a fan: one segment in 2D, one or two triangles in 3D
+      Facet facet;
+      facet[0] = corners[0];
+      for (int i = 1; i < dim; ++i) facet[i] = corners[k - dim + 1 + i];
+      facets_.push_back(facet);
+    }
+  }
+  std::vector<base::Point<dim>> centers;
+  for (const auto& facet : facets_) {
+    centers.push_back(centroid<dim>(facet));
+    largest_radius_ = std::max(largest_radius_, radius<dim>(facet));
+  }
+  tree_ = std::make_unique<base::PointTree<dim>>(std::move(centers));
+}
+
+template <int dim>
+std::vector<mesh::CrackFacet<dim>> Visibility<dim>::near(const base::Point<dim>& center, double reach) const {
+  std::vector<Facet> found;
+  for (const int f : tree_->within(center, reach + largest_radius_)) found.push_back(facets_[f]);
+  return found;
+}
+
+template <int dim>
+bool Visibility<dim>::blocks(const std::vector<Facet>& facets, const base::Point<dim>& x, const base::Point<dim>& p) {
+  return std::any_of(facets.begin(), facets.end(), [&](const Facet& facet) { return meets<dim>(facet, x, p); });
+}
+
+template class Visibility<2>;
+template class Visibility<3>;
+
+}  // namespace perimorph::bonds

@@ -1,0 +1,99 @@
+#include "perimorph/discretization/boundary_conditions.hpp"
+
+#include <Eigen/Geometry>
+
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::discretization {
+
+using base::Point;
+
+template <int dim>
+Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
+                          const std::vector<PrescribedComponent>& conditions)
+    : fixed_(mesh.n_nodes() * dim, 0), values_(mesh.n_nodes() * dim, Ramp<double>{0., 0.}) {
+  base::on_all_ranks(comm, [&] {
+    std::vector<const PrescribedComponent*> set_by(fixed_.size(), nullptr);
+    for (const auto& condition : conditions) {
+      for (const int node : mesh.node_sets.at(condition.node_set)) {
+        const int dof = node * dim + condition.component;
+        const auto* other = set_by[dof];
+        const bool contradicts = other != nullptr && (other->value.rate != condition.value.rate ||
+                                                      other->value.constant != condition.value.constant);
+        if (contradicts) {
+          throw base::UserError(fmt::format(
+              "the displacements \"{}\" and \"{}\" prescribe different values for the {} component of the node at ({})",
+              other->name, condition.name, "xyz"[condition.component],
+              fmt::join(mesh.coordinates[node].begin(), mesh.coordinates[node].end(), ", ")));
+        }
+        set_by[dof] = &condition;
+        fixed_[dof] = 1;
+        values_[dof] = condition.value;
+      }
+    }
+  });
+}
+
+namespace {
+
+/// Integral of each corner's shape function over a flat or bilinear side, [length^(dim-1)].
+template <int dim>
+std::vector<double> shape_integrals(const std::vector<Point<dim>>& x) {
+  if constexpr (dim == 2) {
+    const double length = (x[1] - x[0]).norm();
+    return {length / 2., length / 2.};
+  } else {
+    const auto area = [](const Point<3>& a, const Point<3>& b) { return a.cross(b).norm(); };
+    if (x.size() == 3) return std::vector<double>(3, area(x[1] - x[0], x[2] - x[0]) / 6.);
+    std::vector<double> integrals(4, 0.);
+    const auto& square = elements::reference_element<2>(mesh::ElementType::quad4);
+    for (int q = 0; q < square.n_points; ++q) {
+      Point<3> along_xi = Point<3>::Zero(), along_eta = Point<3>::Zero();
+      for (int k = 0; k < 4; ++k) {
+        along_xi += square.gradients[q](0, k) * x[k];
+        along_eta += square.gradients[q](1, k) * x[k];
+      }
+      for (int k = 0; k < 4; ++k) integrals[k] += square.shape[q](k) * square.weights[q] * area(along_xi, along_eta);
+    }
+    return integrals;
+  }
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<double> Loads<dim>::forces(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                                       const DofMap<dim>& dofs, double load_factor) const {
+  std::vector<double> forces(static_cast<std::size_t>(dofs.n_owned_nodes()) * dim, 0.);
+  const auto add = [&](int node, const Point<dim>& force) {
+    if (node >= dofs.n_owned_nodes()) return;
+    for (int c = 0; c < dim; ++c) forces[node * dim + c] += force[c];
+  };
+  for (const auto& traction : tractions_) {
+    for (const auto& side : mesh.side_sets.at(traction.side_set)) {
+      const auto integrals = shape_integrals<dim>(mesh::corner_points(mesh, side));
+      const auto& corners = mesh::sides(mesh.types[side.element])[side.side];
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        add(dofs.nodes_of(side.element)[corners[k]], integrals[k] * traction.value.at(load_factor));
+      }
+    }
+  }
+  const Point<dim> body = body_force_.at(load_factor);
+  if (body.isZero(0.)) return forces;
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    for (int q = 0; q < points.count(e); ++q) {
+      const double volume = points.weight(points.first(e) + q);
+      for (int k = 0; k < mesh.n_corners(e); ++k) {
+        add(dofs.nodes_of(e)[k], points.shape(e, q)(k) * volume * body);
+      }
+    }
+  }
+  return forces;
+}
+
+template class Dirichlet<2>;
+template class Dirichlet<3>;
+template class Loads<2>;
+template class Loads<3>;
+
+}  // namespace perimorph::discretization

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <type_traits>
+
+#include "perimorph/elements/material_points.hpp"
+
+namespace perimorph::elements {
+
+/// Calls function(std::integral_constant<int, n>) with the number of corners as a compile-time constant.
+template <int dim, class Function>
+void with_corners(int n_corners, Function&& function) {
+  constexpr int simplex = dim + 1, cube = 1 << dim;
+  if (n_corners == simplex) {
+    function(std::integral_constant<int, simplex>{});
+  } else {
+    function(std::integral_constant<int, cube>{});
+  }
+}
+
+/// B: strain (Voigt) = B d, with d the corner displacements node by node, (n_voigt, dim * n).
+/// @param g shape function gradients, (dim, n), [1/length]
+template <int dim, int n>
+Eigen::Matrix<double, base::n_voigt<dim>, dim * n> strain_matrix(const Eigen::Matrix<double, dim, n>& g) {
+  Eigen::Matrix<double, base::n_voigt<dim>, dim * n> b;
+  b.setZero();
+  for (int k = 0; k < n; ++k) {
+    for (int c = 0; c < dim; ++c) b(c, k * dim + c) = g(c, k);
+    // Shear components: xy in 2D; yz, xz, xy in 3D.
+    for (int v = dim; v < base::n_voigt<dim>; ++v) {
+      const int i = dim == 2 ? 0 : (v == 3 ? 1 : 0), j = dim == 2 ? 1 : (v == 5 ? 1 : 2);
+      b(v, k * dim + i) = g(j, k);
+      b(v, k * dim + j) = g(i, k);
+    }
+  }
+  return b;
+}
+
+/// The vector v with (xi . eps xi) = v . eps(Voigt): squares, then products, so that xi^4 = v v^T in Voigt notation.
+template <int dim>
+base::Voigt<dim> squared(const base::Point<dim>& xi) {
+  base::Voigt<dim> v;
+  v.template head<dim>() = xi.cwiseProduct(xi);
+  if constexpr (dim == 2) {
+    v[2] = xi[0] * xi[1];
+  } else {
+    v.template tail<3>() << xi[1] * xi[2], xi[0] * xi[2], xi[0] * xi[1];
+  }
+  return v;
+}
+
+}  // namespace perimorph::elements

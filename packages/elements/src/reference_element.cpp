@@ -1,0 +1,87 @@
+#include "perimorph/elements/reference_element.hpp"
+
+#include <Intrepid2_DefaultCubatureFactory.hpp>
+#include <Intrepid2_HGRAD_HEX_C1_FEM.hpp>
+#include <Intrepid2_HGRAD_QUAD_C1_FEM.hpp>
+#include <Intrepid2_HGRAD_TET_C1_FEM.hpp>
+#include <Intrepid2_HGRAD_TRI_C1_FEM.hpp>
+#include <map>
+#include <memory>
+
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::elements {
+
+namespace {
+
+using Device = Kokkos::Serial;
+using View = Kokkos::DynRankView<double, Device>;
+using Basis = Intrepid2::Basis<Device, double, double>;
+using mesh::ElementType;
+
+std::unique_ptr<Basis> linear_basis(ElementType type) {
+  switch (type) {
+    case ElementType::tri3:
+      return std::make_unique<Intrepid2::Basis_HGRAD_TRI_C1_FEM<Device>>();
+    case ElementType::quad4:
+      return std::make_unique<Intrepid2::Basis_HGRAD_QUAD_C1_FEM<Device>>();
+    case ElementType::tet4:
+      return std::make_unique<Intrepid2::Basis_HGRAD_TET_C1_FEM<Device>>();
+    case ElementType::hex8:
+      return std::make_unique<Intrepid2::Basis_HGRAD_HEX_C1_FEM<Device>>();
+  }
+  throw base::Bug("unknown element type");
+}
+
+/// Degree of polynomials that the rule integrates exactly; n Gauss points along an axis give 2n - 1.
+int cubature_degree(ElementType type, int points_per_direction) {
+  const bool simplex = type == ElementType::tri3 || type == ElementType::tet4;
+  static constexpr int simplex_degrees[] = {1, 2, 4};
+  return simplex ? simplex_degrees[points_per_direction - 1] : 2 * points_per_direction - 1;
+}
+
+template <int dim>
+ReferenceElement<dim> tabulate(ElementType type, int points_per_direction) {
+  const auto basis = linear_basis(type);
+  const auto rule = Intrepid2::DefaultCubatureFactory::create<Device, double, double>(
+      basis->getBaseCellTopology(), cubature_degree(type, points_per_direction));
+  const int n_points = rule->getNumPoints(), n_corners = basis->getCardinality();
+  PERIMORPH_ASSERT(n_points <= max_points, "{} points", n_points);
+
+  View points("points", n_points, dim), weights("weights", n_points);
+  rule->getCubature(points, weights);
+  View values("values", n_corners, n_points), gradients("gradients", n_corners, n_points, dim);
+  basis->getValues(values, points, Intrepid2::OPERATOR_VALUE);
+  basis->getValues(gradients, points, Intrepid2::OPERATOR_GRAD);
+
+  ReferenceElement<dim> table{n_corners, n_points, {}, {}, {}};
+  for (int q = 0; q < n_points; ++q) {
+    CornerValues shape(n_corners);
+    ShapeGradients<dim> gradient(dim, n_corners);
+    for (int k = 0; k < n_corners; ++k) {
+      shape(k) = values(k, q);
+      for (int d = 0; d < dim; ++d) gradient(d, k) = gradients(k, q, d);
+    }
+    table.weights.push_back(weights(q));
+    table.shape.push_back(shape);
+    table.gradients.push_back(gradient);
+  }
+  return table;
+}
+
+}  // namespace
+
+template <int dim>
+const ReferenceElement<dim>& reference_element(ElementType type, int points_per_direction) {
+  PERIMORPH_ASSERT(mesh::dimension(type) == dim, "{} in {} dimensions", mesh::exodus_name(type), dim);
+  PERIMORPH_ASSERT(points_per_direction >= 1 && points_per_direction <= 3, "{} points", points_per_direction);
+  static std::map<std::pair<ElementType, int>, ReferenceElement<dim>> tables;
+  const auto [entry, is_new] = tables.try_emplace({type, points_per_direction});
+  if (is_new) entry->second = tabulate<dim>(type, points_per_direction);
+  return entry->second;
+}
+
+template const ReferenceElement<2>& reference_element<2>(ElementType, int);
+template const ReferenceElement<3>& reference_element<3>(ElementType, int);
+
+}  // namespace perimorph::elements

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "perimorph/fracture/body.hpp"
+#include "perimorph/fracture/results.hpp"
+
+namespace perimorph::fracture {
+
+/// What bounds the loop.
+struct LoopLimits {
+  int increments;
+  int max_damage_iterations;  ///< solves within one increment
+  int max_zone_growths;       ///< changes of topology within one increment
+};
+
+/// The adaptive algorithm of WHL19, Fig. 5: load increments; in each, bonds break and the peridynamic zone grows until
+/// neither happens any more. Collective.
+/// @throws base::ComputationError if the solver fails or a limit is passed; all accepted increments are then on disk.
+template <int dim>
+void run_adaptive_loop(Body<dim>& body, Results<dim>& results, const LoopLimits& limits);
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <Tpetra_Vector_fwd.hpp>
+#include <memory>
+
+#include "perimorph/base/profile.hpp"
+#include "perimorph/fracture/problem.hpp"
+#include "perimorph/operators/coupled_stiffness.hpp"
+#include "perimorph/solvers/linear_solver.hpp"
+
+namespace perimorph::fracture {
+
+/// How a body is discretized, and how well its equations are solved.
+struct BodyOptions {
+  morphing::Profile profile;
+  DiscontinuousElements discontinuous;
+  operators::PeridynamicStiffness peridynamic_stiffness;
+  double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o, [length]
+  double tolerance;                                 ///< residual over reaction forces
+  solvers::SolverParameters solver;
+};
+BodyOptions body_options(const Case& input);
+
+/// What has happened to a body, over all ranks.
+struct Counts {
+  base::GlobalId broken_bonds = 0, damaged_elements = 0, dgfe_elements = 0, unknowns = 0;
+  base::GlobalId linear_solves = 0, cg_iterations = 0;  ///< since the load was last changed
+  base::GlobalId topologies = 0;                        ///< built since the beginning
+};
+
+/// Energies of a body, [energy]. What the loads' work exceeds elastic + dissipated energy was lost in brittle jumps.
+struct Energies {
+  double elastic = 0., dissipated = 0., external_work = 0.;
+};
+
+/// The deforming, breaking body: its peridynamic zone, bonds, topology and displacement. The adaptive loop (WHL19,
+/// Fig. 5) calls its verbs in turn. All verbs are collective.
+template <int dim>
+class Body {
+ public:
+  /// The mesh and the problem must outlive this.
+  Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem,
+       BodyOptions options, base::Profile& profile);
+  ~Body();
+
+  /// Sets the load; the displacement is scaled along when the loads are proportional.
+  void apply_load(double load_factor);
+
+  /// Lets alpha, bonds, classes and DGFE follow the flag points and the damage, and renumbers; only if they changed.
+  /// @throws UserError at the first call, if a pre-crack cuts through elements outside the peridynamic zone.
+  void update_topology();
+
+  /// Solves R(u; bonds, load) = 0 for the displacement.
+  /// @throws ComputationError if the solver fails.
+  void solve();
+
+  /// Breaks bonds whose stretch reached the critical one; returns how many.
+  base::GlobalId break_bonds();
+
+  /// Makes the centroids of newly damaged elements flag points, around which alpha will grow; returns how many.
+  base::GlobalId flag_damaged_elements();
+
+  const Counts& counts() const { return counts_; }
+  Energies energies() const;
+  double load_factor() const { return load_factor_; }
+
+  // For results; local.
+  operators::CoupledModel<dim> model() const;
+  const mesh::Mesh<dim>& mesh() const { return mesh_; }
+  const std::vector<morphing::ElementClass>& classes() const { return classes_; }
+  bool is_discontinuous(int element) const { return discontinuous_[element]; }
+  const double* displacement() const;                                   ///< all local degrees of freedom
+  const std::vector<base::Point<dim>>& displacement_at_points() const { return at_points_; }
+  /// Force that supports exert on an owned node, [force].
+  base::Point<dim> reaction(int node) const;
+
+ private:
+  Teuchos::RCP<const base::Comm> comm_;
+  const mesh::Mesh<dim>& mesh_;
+  const Problem<dim>& problem_;
+  BodyOptions options_;
+  base::Profile& profile_;
+
+  elements::MaterialPoints<dim> points_;
+  morphing::MorphingField<dim> alpha_;
+  bonds::BondFamilies<dim> bonds_;
+  operators::MorphedStiffness<dim> elasticity_;
+  discretization::Dirichlet<dim> dirichlet_;
+  discretization::HaloExchange element_exchange_, corner_exchange_;
+  solvers::LinearSolver solver_;
+
+  std::vector<morphing::Zone<dim>> pending_zones_;
+  std::vector<char> cut_by_pre_crack_;              ///< per local element
+  std::vector<morphing::ElementClass> classes_;
+  std::vector<char> discontinuous_, flagged_;
+  std::unique_ptr<discretization::DofMap<dim>> dofs_;
+  std::unique_ptr<operators::CoupledStiffness<dim>> stiffness_;
+
+  using Vector = Tpetra::Vector<double>;
+  Teuchos::RCP<Vector> owned_u_, all_u_, residual_, correction_;
+  std::vector<base::Point<dim>> at_points_;
+  std::vector<double> force_;  ///< internal, owned degrees of freedom
+  std::vector<double> loads_;  ///< external, owned degrees of freedom
+
+  std::vector<double> last_u_, last_force_;  ///< owned, at the last solution; zero force after the topology changed
+
+  double load_factor_ = 0.;
+  double largest_reaction_ = 0.;
+  bool load_is_new_ = false;
+  Counts counts_;
+  double dissipated_ = 0., external_work_ = 0.;
+
+  void classify();
+  bool find_discontinuous();
+  void check_pre_cracks() const;
+  void renumber();
+  void prescribe_displacements();
+  void update_forces();
+  bool is_prescribed(int node, int component) const {
+    return dirichlet_.prescribes(dofs_->reference_node(node), component);
+  }
+  struct Balance {
+    double residual, reaction;  ///< 2-norms
+  };
+  Balance balance();
+  void record_work();
+};
+
+}  // namespace perimorph::fracture

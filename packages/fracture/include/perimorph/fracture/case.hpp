@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "perimorph/materials/elasticity.hpp"
+#include "perimorph/morphing/morphing_field.hpp"
+#include "perimorph/operators/morphed_stiffness.hpp"
+
+namespace perimorph::fracture {
+
+using materials::ElasticModel;
+using operators::PeridynamicStiffness;
+enum class SeedShape { ball, box, everything };  ///< a ball is a circle in 2D, a sphere in 3D
+using MorphingProfile = morphing::Profile;
+enum class DiscontinuousElements { on_damage, whole_zone };
+enum class OperatorForm { crs };
+
+/// A first peridynamic zone: alpha = 1 inside, falling to 0 over the rim. Lengths in the mesh's unit.
+struct Seed {
+  std::string name;
+  SeedShape shape;
+  std::vector<double> center;             ///< ball: (dim)
+  double inner_radius = 0., outer_radius = 0.;  ///< ball: r1, r2
+  std::vector<double> lower_corner, upper_corner;  ///< box: (dim)
+  double rim = 0.;                        ///< box: width over which alpha falls from 1 to 0
+};
+
+/// A polyline (2D) along which there are no bonds and elements part.
+struct PreCrack {
+  std::string name;
+  std::vector<double> points;  ///< x1 y1 x2 y2 ..., at least two points
+};
+
+/// One displacement component of a group: rate * increment + constant, [length].
+struct PrescribedDisplacement {
+  std::string name, group;
+  int component;  ///< 0, 1, 2 for x, y, z
+  double rate, constant;
+};
+
+/// Force per area on a side set: rate * increment + constant, [stress], (dim) each.
+struct Traction {
+  std::string name, group;
+  std::vector<double> rate, constant;
+};
+
+/// Everything that a case file says, complete and checked by itself (not yet against the mesh).
+struct Case {
+  std::string file;       ///< of the case, as given
+  std::string directory;  ///< where relative file names in it start
+  std::string name;       ///< the file's name without its ending: names the results
+  std::string title;
+  int dimension;
+
+  std::string mesh_file;  ///< resolved against directory
+
+  double youngs_modulus, poissons_ratio;
+  ElasticModel elastic_model;
+  std::optional<double> critical_stretch, fracture_energy;  ///< at most one; none: nothing breaks
+
+  double horizon, characteristic_length;
+
+  MorphingProfile profile;
+  DiscontinuousElements discontinuous;
+  PeridynamicStiffness peridynamic_stiffness;
+  double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o of new zones, [length] (given in horizons)
+  std::vector<Seed> seeds;
+  std::vector<PreCrack> pre_cracks;
+
+  std::vector<PrescribedDisplacement> displacements;
+  std::vector<Traction> tractions;
+  std::vector<double> body_force_rate, body_force_constant;  ///< (dim), force per volume
+
+  int increments;
+  int max_damage_iterations;  ///< solves within one increment
+  int max_zone_growths;       ///< changes of topology within one increment
+
+  OperatorForm operator_form;
+  double tolerance;           ///< residual over reaction forces
+  int max_cg_iterations;
+  double rebuild_growth;      ///< the preconditioner is rebuilt when iterations exceed this times those after its set-up
+  Teuchos::ParameterList belos, muelu;  ///< overrides, free-form
+
+  int output_every;           ///< fields are written every so many increments, at every break, and at the last one
+  std::vector<std::string> reactions;  ///< groups whose reaction is recorded; default: all with prescribed displacement
+
+  Teuchos::ParameterList resolved;     ///< every parameter with its value, defaults filled in
+};
+
+/// The reference: every parameter with default, documentation and validator. Sublists whose entries the user names
+/// (seeds, pre-cracks, displacements, tractions) hold one template entry called "*".
+Teuchos::ParameterList case_schema();
+
+/// Reads and checks a case file; overrides are "Section/Sub/Name=value". Local.
+/// @throws UserError that lists ALL mistakes, one a line, "file:line: /path: what was found; what is allowed".
+Case read_case(const std::string& file, const std::vector<std::string>& overrides = {});
+
+/// The schema as text: path, type, default, allowed values, documentation.
+std::string describe_schema();
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "perimorph/base/parallel.hpp"
+#include "perimorph/discretization/boundary_conditions.hpp"
+#include "perimorph/fracture/case.hpp"
+#include "perimorph/materials/micromodulus.hpp"
+#include "perimorph/mesh/pre_crack.hpp"
+#include "perimorph/morphing/morphing_field.hpp"
+
+namespace perimorph::fracture {
+
+/// A case in the terms of the packages that compute it.
+template <int dim>
+struct Problem {
+  base::Stiffness<dim> e0;
+  materials::Micromodulus micromodulus;
+  double critical_stretch;  ///< infinite if nothing is to break
+  double fracture_energy;   ///< G_c that belongs to it, [energy / area]
+  std::vector<morphing::Zone<dim>> seeds;
+  std::vector<mesh::CrackFacet<dim>> pre_cracks;
+  std::vector<discretization::PrescribedComponent> displacements;
+  discretization::Loads<dim> loads;
+  bool is_proportional;  ///< all loads grow with the increment from zero
+};
+
+template <int dim>
+Problem<dim> make_problem(const Case& input);
+
+/// Reads the case's mesh on rank 0 (a .geo file is meshed by gmsh first, and the mesh kept in the folder), opens it
+/// along the pre-cracks, checks the case's groups against it and distributes it. Collective.
+/// @throws UserError, on all ranks.
+template <int dim>
+mesh::Mesh<dim> load_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
+                          const std::string& folder);
+
+}  // namespace perimorph::fracture

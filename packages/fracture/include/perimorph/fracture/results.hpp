@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "perimorph/base/log.hpp"
+#include "perimorph/fracture/body.hpp"
+#include "perimorph/io/exodus.hpp"
+#include "perimorph/io/history.hpp"
+
+namespace perimorph::fracture {
+
+/// Everything a run leaves behind: a row of history.csv and a line on the terminal per accepted increment, and the
+/// Exodus series. Rank 0 writes what it gathers from all.
+template <int dim>
+class Results {
+ public:
+  /// Collective. @throws UserError if the folder cannot be written.
+  Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, base::Log log,
+          base::Profile& profile);
+
+  /// Records an increment; fields too if they are due, a bond broke or it is the last. Collective.
+  void accept(int increment, const Body<dim>& body);
+
+  /// On a terminal: what the current increment is at, overwritten in place. Local.
+  void show_progress(int increment, const Body<dim>& body);
+
+  /// The closing lines: peak and last reaction, counts, profile. Local.
+  void summarize(const Body<dim>& body);
+
+ private:
+  struct Reaction {
+    std::string column;  ///< "<group>_<x|y|z>"
+    std::string group;
+    int component;
+    double force = 0., displacement = 0.;  ///< of the last accepted increment: sum, mean over the group
+    double peak = 0.;
+    int peak_increment = 0;
+  };
+
+  Teuchos::RCP<const base::Comm> comm_;
+  base::Log log_;
+  base::Profile& profile_;
+  int output_every_, last_increment_;
+  bool shows_progress_;
+  std::vector<Reaction> reactions_;
+  std::unique_ptr<io::History> history_;
+  std::unique_ptr<io::ExodusSeries<dim>> series_;
+  base::GlobalId broken_before_ = 0, topology_written_ = 0;
+  int first_break_ = 0;
+  double seconds_before_ = 0.;
+  base::GlobalId total_solves_ = 0, total_iterations_ = 0;
+
+  /// Rank 0: place in the file of each element in the order of gathering.
+  std::vector<int> element_place_;
+
+  void measure_reactions(int increment, const Body<dim>& body);
+  void show_line(int increment, const Body<dim>& body);
+  std::vector<double> globals(const Body<dim>& body) const;
+  void start_file(const Body<dim>& body);
+  void write_fields(const Body<dim>& body, const std::vector<double>& global_values);
+  std::vector<double> in_file_order(const std::vector<double>& own_elements) const;
+};
+
+}  // namespace perimorph::fracture

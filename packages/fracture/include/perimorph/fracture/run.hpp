@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "perimorph/base/log.hpp"
+#include "perimorph/fracture/case.hpp"
+
+namespace perimorph::fracture {
+
+/// Runs a case from the first increment to the last; results go to the folder, which is made. Collective.
+/// @throws base::UserError, base::ComputationError, base::Bug: the same on all ranks.
+void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, bool quiet);
+
+/// Checks a case and its mesh and prints the resolved parameters, the material's derived constants and an estimate of
+/// unknowns, bonds and memory. Collective. @throws as run.
+void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, bool quiet);
+
+}  // namespace perimorph::fracture

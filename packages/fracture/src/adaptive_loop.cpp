@@ -1,0 +1,37 @@
+#include "perimorph/fracture/adaptive_loop.hpp"
+
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::fracture {
+
+namespace {
+
+void check_limit(int count, int limit, int increment, const char* what, const char* parameter) {
+  if (count <= limit) return;
+  throw base::ComputationError(fmt::format("increment {}: more than {} {}; /Loading/{} sets this limit", increment, limit,
+                                           what, parameter));
+}
+
+}  // namespace
+
+template <int dim>
+void run_adaptive_loop(Body<dim>& body, Results<dim>& results, const LoopLimits& limits) {
+  for (int increment = 1; increment <= limits.increments; ++increment) {
+    body.apply_load(increment);
+    int growths = 0, damage_iterations = 0;
+    do {
+      check_limit(growths++, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
+      body.update_topology();
+      do {
+        check_limit(damage_iterations++, limits.max_damage_iterations, increment, "solves", "Maximum Damage Iterations");
+        body.solve();
+        results.show_progress(increment, body);
+      } while (body.break_bonds() > 0);
+    } while (body.flag_damaged_elements() > 0);
+    results.accept(increment, body);
+  }
+}
+
+template void run_adaptive_loop<2>(Body<2>&, Results<2>&, const LoopLimits&);
+
+}  // namespace perimorph::fracture

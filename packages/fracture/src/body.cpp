@@ -1,0 +1,332 @@
+#include "perimorph/fracture/body.hpp"
+
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/mesh/distribute.hpp"
+#include "perimorph/operators/fields.hpp"
+#include "perimorph/operators/internal_force.hpp"
+
+namespace perimorph::fracture {
+
+using base::GlobalId;
+using base::Phase;
+using base::Point;
+using morphing::ElementClass;
+
+namespace {
+
+/// Elements that a pre-crack cuts through: it passes between two of their points.
+template <int dim>
+std::vector<char> find_cut_elements(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                                    const std::vector<mesh::CrackFacet<dim>>& pre_cracks) {
+  std::vector<char> cut(mesh.n_elements(), 0);
+  if (pre_cracks.empty()) return cut;
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    for (int i = points.first(e); i < points.first(e + 1); ++i) {
+      for (int j = i + 1; j < points.first(e + 1) && !cut[e]; ++j) {
+        cut[e] = bonds::Visibility<dim>::blocks(pre_cracks, points.position(i), points.position(j));
+      }
+    }
+  }
+  return cut;
+}
+
+}  // namespace
+
+template <int dim>
+Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem,
+                BodyOptions options, base::Profile& profile)
+    : comm_(comm),
+      mesh_(mesh),
+      problem_(problem),
+      options_(std::move(options)),
+      profile_(profile),
+      points_(mesh),
+      alpha_(mesh, points_, options_.profile),
+      bonds_(mesh, points_, mesh::active_elements(mesh), problem.micromodulus, problem.pre_cracks),
+      elasticity_(problem.e0, options_.peridynamic_stiffness),
+      dirichlet_(*comm, mesh, problem.displacements),
+      element_exchange_(discretization::element_exchange(*comm, mesh)),
+      corner_exchange_(discretization::corner_exchange(*comm, mesh)),
+      solver_(options_.solver, profile),
+      pending_zones_(problem.seeds),
+      cut_by_pre_crack_(find_cut_elements<dim>(mesh, points_, problem.pre_cracks)),
+      classes_(mesh.n_elements(), ElementClass::fe),
+      discontinuous_(mesh.n_elements(), 0),
+      flagged_(mesh.n_owned_elements, 0) {}
+
+template <int dim>
+Body<dim>::~Body() = default;
+
+template <int dim>
+void Body<dim>::apply_load(double load_factor) {
+  counts_.linear_solves = counts_.cg_iterations = 0;
+  load_is_new_ = true;
+  // Everything is linear while no bond breaks: under proportional load the displacement scales.
+  if (problem_.is_proportional && load_factor_ != 0. && !all_u_.is_null()) {
+    owned_u_->scale(load_factor / load_factor_);
+    all_u_->scale(load_factor / load_factor_);
+  }
+  load_factor_ = load_factor;
+}
+
+template <int dim>
+void Body<dim>::update_topology() {
+  const bool is_first = dofs_ == nullptr;
+  const bool alpha_changed = !pending_zones_.empty() || is_first;
+  if (alpha_changed) {
+    const auto timer = profile_.measure(Phase::search);
+    bonds_.extend(alpha_.add(pending_zones_));
+    pending_zones_.clear();
+  }
+  {
+    const auto timer = profile_.measure(Phase::adapt);
+    if (alpha_changed) classify();
+    const bool split = find_discontinuous();
+    if (is_first) check_pre_cracks();
+    if (!split && !alpha_changed) return;
+    if (alpha_changed) elasticity_.update(mesh_, points_, bonds_, alpha_, classes_);
+    if (split || is_first) renumber();
+  }
+  const auto timer = profile_.measure(Phase::assemble);
+  stiffness_ = std::make_unique<operators::CoupledStiffness<dim>>(model(), dirichlet_, discontinuous_);
+  std::vector<Point<dim>> coordinates;
+  for (int n = 0; n < dofs_->n_owned_nodes(); ++n) coordinates.push_back(mesh_.coordinates[dofs_->reference_node(n)]);
+  solver_.set_matrix(stiffness_->matrix(), solvers::rigid_body_modes<dim>(*stiffness_->matrix(), coordinates));
+  ++counts_.topologies;
+}
+
+template <int dim>
+void Body<dim>::classify() {
+  const auto extremes = bonds_.neighbourhood_extremes(alpha_);
+  for (int e = 0; e < mesh_.n_owned_elements; ++e) {
+    const auto begin = points_.first(e), end = points_.first(e + 1);
+    const double smallest = *std::min_element(extremes.smallest.begin() + begin, extremes.smallest.begin() + end);
+    const double largest = *std::max_element(extremes.largest.begin() + begin, extremes.largest.begin() + end);
+    classes_[e] = smallest >= 1. ? ElementClass::pd : largest > 0. ? ElementClass::morph : ElementClass::fe;
+  }
+  element_exchange_.update(classes_);
+}
+
+template <int dim>
+bool Body<dim>::find_discontinuous() {
+  GlobalId split = 0;
+  GlobalId n_discontinuous = 0;
+  for (int e = 0; e < mesh_.n_owned_elements; ++e) {
+    const bool whole_zone = options_.discontinuous == DiscontinuousElements::whole_zone;
+    const bool is_split = classes_[e] == ElementClass::pd && (whole_zone || bonds_.is_damaged(e) || cut_by_pre_crack_[e]);
+    if (is_split && !discontinuous_[e]) split = 1;
+    discontinuous_[e] = is_split;
+    n_discontinuous += is_split;
+  }
+  element_exchange_.update(discontinuous_);
+  counts_.dgfe_elements = base::sum(*comm_, n_discontinuous);
+  return base::max(*comm_, split) > 0;
+}
+
+template <int dim>
+void Body<dim>::check_pre_cracks() const {
+  base::on_all_ranks(*comm_, [&] {
+    for (int e = 0; e < mesh_.n_owned_elements; ++e) {
+      if (!cut_by_pre_crack_[e] || classes_[e] == ElementClass::pd) continue;
+      const auto c = mesh::centroid(mesh_, e);
+      throw base::UserError(fmt::format(
+          "/Pre-Cracks: a pre-crack cuts through the element at ({:.6g}), which is not peridynamic and so cannot part; "
+          "let the crack run along edges of the mesh, or put a seed there that is wider by a horizon",
+          fmt::join(c.begin(), c.end(), ", ")));
+    }
+  });
+}
+
+/// New degrees of freedom; the nodes of an element that has just been split start from the displacement of the node
+/// that they part from.
+template <int dim>
+void Body<dim>::renumber() {
+  auto dofs = std::make_unique<discretization::DofMap<dim>>(comm_, mesh_, corner_exchange_, discontinuous_);
+  const auto all_u = Teuchos::rcp(new Vector(dofs->all_dofs()));
+  if (dofs_ != nullptr) {
+    const auto old_values = all_u_->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto new_values = all_u->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (int e = 0; e < mesh_.n_elements(); ++e) {
+      for (int k = 0; k < mesh_.n_corners(e); ++k) {
+        for (int c = 0; c < dim; ++c) {
+          new_values(dofs->nodes_of(e)[k] * dim + c, 0) = old_values(dofs_->nodes_of(e)[k] * dim + c, 0);
+        }
+      }
+    }
+  }
+  dofs_ = std::move(dofs);
+  all_u_ = all_u;
+  owned_u_ = Teuchos::rcp(new Vector(dofs_->owned_dofs()));
+  Tpetra::deep_copy(*owned_u_, *all_u_->offsetView(dofs_->owned_dofs(), 0));
+  residual_ = Teuchos::rcp(new Vector(dofs_->owned_dofs()));
+  correction_ = Teuchos::rcp(new Vector(dofs_->owned_dofs()));
+  last_u_.assign(displacement(), displacement() + owned_u_->getLocalLength());
+  last_force_.assign(last_u_.size(), 0.);
+  counts_.unknowns = dofs_->n_global_nodes() * dim;
+}
+
+template <int dim>
+void Body<dim>::solve() {
+  constexpr int max_passes = 10;
+  // Below this share of the largest reaction so far, forces count as none: a severed body has nothing left to relate to.
+  constexpr double negligible = 1e-4;
+
+  loads_ = problem_.loads.forces(mesh_, points_, *dofs_, load_factor_);
+  prescribe_displacements();
+  update_forces();
+  for (int pass = 0;; ++pass) {
+    const Balance balance = this->balance();
+    const double target = options_.tolerance * std::max(balance.reaction, negligible * largest_reaction_);
+    if (balance.residual <= target) {
+      largest_reaction_ = std::max(largest_reaction_, balance.reaction);
+      break;
+    }
+    if (pass == max_passes) {
+      throw base::ComputationError(fmt::format("the forces do not balance: residual {:.3e}, reactions {:.3e} after {} solves",
+                                               balance.residual, balance.reaction, max_passes));
+    }
+    counts_.cg_iterations += solver_.solve(*residual_, *correction_, 0.5 * target);
+    ++counts_.linear_solves;
+    owned_u_->update(1., *correction_, 1.);
+    all_u_->doImport(*owned_u_, *dofs_->import(), Tpetra::INSERT);
+    update_forces();
+  }
+  record_work();
+}
+
+template <int dim>
+void Body<dim>::prescribe_displacements() {
+  const auto all = all_u_->getLocalViewHost(Tpetra::Access::ReadWrite);
+  const auto owned = owned_u_->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (int n = 0; n < dofs_->n_nodes(); ++n) {
+    for (int c = 0; c < dim; ++c) {
+      if (!is_prescribed(n, c)) continue;
+      all(n * dim + c, 0) = dirichlet_.value(dofs_->reference_node(n), c, load_factor_);
+      if (n < dofs_->n_owned_nodes()) owned(n * dim + c, 0) = all(n * dim + c, 0);
+    }
+  }
+}
+
+template <int dim>
+void Body<dim>::update_forces() {
+  const auto timer = profile_.measure(Phase::residual);
+  at_points_ = operators::displacements_at_points(model(), displacement());
+  force_ = operators::internal_force(model(), displacement(), at_points_);
+}
+
+/// Fills the residual (loads - internal forces where nothing is prescribed); reactions are the rest, and the loads.
+template <int dim>
+typename Body<dim>::Balance Body<dim>::balance() {
+  const auto residual = residual_->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  std::vector<double> squares = {0., 0.};
+  for (int n = 0; n < dofs_->n_owned_nodes(); ++n) {
+    for (int c = 0; c < dim; ++c) {
+      const int dof = n * dim + c;
+      const double difference = loads_[dof] - force_[dof];
+      residual(dof, 0) = is_prescribed(n, c) ? 0. : difference;
+      squares[0] += residual(dof, 0) * residual(dof, 0);
+      squares[1] += loads_[dof] * loads_[dof] + (is_prescribed(n, c) ? difference * difference : 0.);
+    }
+  }
+  base::sum(*comm_, squares);
+  return {std::sqrt(squares[0]), std::sqrt(squares[1])};
+}
+
+/// Work of all outer forces since the last solution. While the load rises no bond breaks and forces change linearly; at
+/// a fixed load only prescribed forces do work.
+template <int dim>
+void Body<dim>::record_work() {
+  const std::vector<double> u(displacement(), displacement() + force_.size());
+  double work = 0.;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    work += (u[i] - last_u_[i]) * (load_is_new_ ? 0.5 * (last_force_[i] + force_[i]) : loads_[i]);
+  }
+  external_work_ += base::sum(*comm_, work);
+  load_is_new_ = false;
+  last_u_ = u;
+  last_force_ = force_;
+}
+
+template <int dim>
+GlobalId Body<dim>::break_bonds() {
+  const auto timer = profile_.measure(Phase::bonds);
+  if (std::isinf(problem_.critical_stretch)) return 0;
+  const auto broken = bonds_.break_overstretched(at_points_, problem_.critical_stretch, classes_);
+  stiffness_->subtract(broken);
+  dissipated_ += base::sum(*comm_, operators::bond_energy(model(), broken, at_points_));
+  const auto is_counted_here = [&](std::size_t b) { return bonds_.pair(bonds_.pair_of(b)).first < mesh_.n_owned_elements; };
+  const GlobalId n_broken =
+      base::sum(*comm_, static_cast<GlobalId>(std::count_if(broken.begin(), broken.end(), is_counted_here)));
+  counts_.broken_bonds += n_broken;
+  return n_broken;
+}
+
+template <int dim>
+GlobalId Body<dim>::flag_damaged_elements() {
+  const auto timer = profile_.measure(Phase::adapt);
+  struct FlagPoint {
+    GlobalId element;
+    std::array<double, dim> x;
+  };
+  std::vector<FlagPoint> own;
+  for (int e = 0; e < mesh_.n_owned_elements; ++e) {
+    if (flagged_[e] || !bonds_.is_damaged(e)) continue;
+    flagged_[e] = 1;
+    own.push_back({mesh_.element_ids[e], {}});
+    Eigen::Map<Point<dim>>(own.back().x.data()) = mesh::centroid(mesh_, e);
+  }
+  auto flag_points = base::gather_on_all(*comm_, own);
+  std::sort(flag_points.begin(), flag_points.end(), [](const auto& a, const auto& b) { return a.element < b.element; });
+  for (const auto& flag : flag_points) {
+    pending_zones_.push_back(
+        morphing::Zone<dim>::ball(Eigen::Map<const Point<dim>>(flag.x.data()), options_.growth_inner_radius, options_.growth_outer_radius));
+  }
+  counts_.damaged_elements += static_cast<GlobalId>(flag_points.size());
+  return static_cast<GlobalId>(flag_points.size());
+}
+
+template <int dim>
+Energies Body<dim>::energies() const {
+  double elastic = 0.;
+  for (std::size_t i = 0; i < force_.size(); ++i) elastic += 0.5 * force_[i] * displacement()[i];
+  return {base::sum(*comm_, elastic), dissipated_, external_work_};
+}
+
+template <int dim>
+operators::CoupledModel<dim> Body<dim>::model() const {
+  return {mesh_, points_, bonds_, alpha_, elasticity_, *dofs_};
+}
+
+template <int dim>
+const double* Body<dim>::displacement() const {
+  return all_u_->getLocalViewHost(Tpetra::Access::ReadOnly).data();
+}
+
+template <int dim>
+Point<dim> Body<dim>::reaction(int node) const {
+  Point<dim> force;
+  for (int c = 0; c < dim; ++c) force[c] = force_[node * dim + c] - loads_[node * dim + c];
+  return force;
+}
+
+BodyOptions body_options(const Case& input) {
+  BodyOptions options;
+  options.profile = input.profile;
+  options.discontinuous = input.discontinuous;
+  options.peridynamic_stiffness = input.peridynamic_stiffness;
+  options.growth_inner_radius = input.growth_inner_radius;
+  options.growth_outer_radius = input.growth_outer_radius;
+  options.tolerance = input.tolerance;
+  options.solver = {input.max_cg_iterations, input.rebuild_growth, input.belos, input.muelu};
+  return options;
+}
+
+template class Body<2>;
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,49 @@
+#pragma once
+
+// The words of the case file for the enumerations of Case: each stands here once.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/fracture/case.hpp"
+
+namespace perimorph::fracture {
+
+template <class E>
+struct Choice {
+  const char* word;
+  E value;
+};
+
+inline constexpr std::array<Choice<ElasticModel>, 2> elastic_models{
+    {{"Plane Stress", ElasticModel::plane_stress}, {"Plane Strain", ElasticModel::plane_strain}}};
+inline constexpr std::array<Choice<SeedShape>, 3> seed_shapes{
+    {{"Circle", SeedShape::ball}, {"Box", SeedShape::box}, {"Everything", SeedShape::everything}}};
+inline constexpr std::array<Choice<MorphingProfile>, 2> morphing_profiles{
+    {{"Linear", MorphingProfile::linear}, {"Cubic", MorphingProfile::cubic}}};
+inline constexpr std::array<Choice<DiscontinuousElements>, 2> discontinuous_elements{
+    {{"On Damage", DiscontinuousElements::on_damage}, {"Whole Zone", DiscontinuousElements::whole_zone}}};
+inline constexpr std::array<Choice<PeridynamicStiffness>, 2> peridynamic_stiffnesses{
+    {{"Dropped", PeridynamicStiffness::dropped}, {"Kept", PeridynamicStiffness::kept}}};
+inline constexpr std::array<Choice<OperatorForm>, 1> operator_forms{{{"CRS", OperatorForm::crs}}};
+inline constexpr std::array<Choice<int>, 3> components{{{"x", 0}, {"y", 1}, {"z", 2}}};
+
+template <class E, std::size_t n>
+std::vector<std::string> words(const std::array<Choice<E>, n>& choices) {
+  std::vector<std::string> all;
+  for (const auto& choice : choices) all.emplace_back(choice.word);
+  return all;
+}
+
+/// @throws Bug if the word is none of the choices: the schema lets no other through.
+template <class E, std::size_t n>
+E value_of(const std::array<Choice<E>, n>& choices, const std::string& word) {
+  for (const auto& choice : choices) {
+    if (word == choice.word) return choice.value;
+  }
+  throw base::Bug("no such choice: " + word);
+}
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace perimorph::fracture {
+
+/// The line of what was said on the command line, not in the file.
+inline constexpr int command_line = 0;
+
+/// Everything wrong with one case file, said in one go.
+class Mistakes {
+ public:
+  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+
+  /// @throws UserError at once if there are so many that reading on helps nobody.
+  void add(int line, const std::string& path, const std::string& what);
+
+  /// @throws UserError that lists them in the order of lines, the command line's last, if there are any.
+  void report();
+
+ private:
+  std::string file_;
+  std::vector<std::pair<int, std::string>> found_;  ///< line, message
+};
+
+/// A piece of the file for a message: in quotes, without control characters, not too long.
+std::string in_quotes(const std::string& text);
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,145 @@
+#include "perimorph/fracture/problem.hpp"
+
+#include <filesystem>
+#include <limits>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
+#include "perimorph/mesh/distribute.hpp"
+#include "perimorph/mesh/gmsh.hpp"
+
+namespace perimorph::fracture {
+
+using base::Point;
+
+namespace {
+
+template <int dim>
+Point<dim> point(const std::vector<double>& values, std::size_t offset = 0) {
+  return Eigen::Map<const Point<dim>>(values.data() + offset);
+}
+
+template <int dim>
+morphing::Zone<dim> make_zone(const Seed& seed) {
+  using Zone = morphing::Zone<dim>;
+  switch (seed.shape) {
+    case SeedShape::ball:
+      return Zone::ball(point<dim>(seed.center), seed.inner_radius, seed.outer_radius);
+    case SeedShape::box:
+      return Zone::box(point<dim>(seed.lower_corner), point<dim>(seed.upper_corner), seed.rim);
+    case SeedShape::everything:
+      return Zone::everything();
+  }
+  throw base::Bug("unknown seed shape");
+}
+
+/// The segments of a polyline.
+std::vector<mesh::CrackFacet<2>> facets(const PreCrack& crack) {
+  std::vector<mesh::CrackFacet<2>> segments;
+  for (std::size_t i = 0; i + 4 <= crack.points.size(); i += 2) {
+    segments.push_back({point<2>(crack.points, i), point<2>(crack.points, i + 2)});
+  }
+  return segments;
+}
+
+template <int dim>
+discretization::Loads<dim> make_loads(const Case& input) {
+  std::vector<discretization::SurfaceTraction<dim>> tractions;
+  for (const auto& t : input.tractions) {
+    tractions.push_back({t.group, {point<dim>(t.rate), point<dim>(t.constant)}});
+  }
+  return {std::move(tractions), {point<dim>(input.body_force_rate), point<dim>(input.body_force_constant)}};
+}
+
+bool is_proportional(const Case& input) {
+  const auto is_zero = [](double value) { return value == 0.; };
+  const auto all_zero = [&](const std::vector<double>& v) { return std::all_of(v.begin(), v.end(), is_zero); };
+  return std::all_of(input.displacements.begin(), input.displacements.end(),
+                     [&](const auto& d) { return is_zero(d.constant); }) &&
+         std::all_of(input.tractions.begin(), input.tractions.end(),
+                     [&](const auto& t) { return all_zero(t.constant); }) &&
+         all_zero(input.body_force_constant);
+}
+
+std::string path_of_mesh(const Case& input, const std::string& folder) {
+  const std::filesystem::path file(input.mesh_file);
+  return file.extension() == ".geo" ? (std::filesystem::path(folder) / file.stem()).string() + ".msh" : file.string();
+}
+
+template <class Groups>
+void check_group(const Case& input, const std::string& parameter, const std::string& group, const Groups& groups,
+                 const char* kind, std::string& mistakes) {
+  if (groups.count(group) != 0) return;
+  std::vector<std::string> names;
+  for (const auto& entry : groups) names.push_back(entry.first);
+  mistakes +=
+      fmt::format("\n{}: {}: the mesh {} has no {} called \"{}\"; it has {}{}", input.file, parameter, input.mesh_file,
+                  kind, group, names.empty() ? "none" : base::quoted_list(names), base::did_you_mean(group, names));
+}
+
+template <int dim>
+void check_groups(const Case& input, const mesh::Mesh<dim>& mesh) {
+  std::string mistakes;
+  for (const auto& d : input.displacements) {
+    check_group(input, "/Boundary Conditions/Displacements/" + d.name + "/Group", d.group, mesh.node_sets,
+                "group of nodes", mistakes);
+  }
+  for (const auto& t : input.tractions) {
+    check_group(input, "/Boundary Conditions/Tractions/" + t.name + "/Group", t.group, mesh.side_sets, "group of sides",
+                mistakes);
+  }
+  for (const auto& group : input.reactions) {
+    check_group(input, "/Output/Reactions", group, mesh.node_sets, "group of nodes", mistakes);
+  }
+  if (!mistakes.empty()) throw base::UserError(mistakes.substr(1));
+}
+
+}  // namespace
+
+template <int dim>
+Problem<dim> make_problem(const Case& input) {
+  const auto c0 =
+      materials::calibrate<dim>(input.elastic_model, input.youngs_modulus, input.characteristic_length, input.horizon);
+  double critical_stretch = std::numeric_limits<double>::infinity();
+  if (input.critical_stretch) critical_stretch = *input.critical_stretch;
+  if (input.fracture_energy) critical_stretch = materials::critical_stretch<dim>(c0, *input.fracture_energy);
+
+  Problem<dim> problem{
+      materials::elasticity_tensor<dim>(input.elastic_model, input.youngs_modulus, input.poissons_ratio),
+      c0,
+      critical_stretch,
+      materials::fracture_energy<dim>(c0, critical_stretch),
+      {},
+      {},
+      {},
+      make_loads<dim>(input),
+      is_proportional(input)};
+  for (const auto& seed : input.seeds) problem.seeds.push_back(make_zone<dim>(seed));
+  for (const auto& crack : input.pre_cracks) {
+    for (const auto& facet : facets(crack)) problem.pre_cracks.push_back(facet);
+  }
+  for (const auto& d : input.displacements) {
+    problem.displacements.push_back({d.name, d.group, d.component, {d.rate, d.constant}});
+  }
+  return problem;
+}
+
+template <int dim>
+mesh::Mesh<dim> load_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
+                          const std::string& folder) {
+  mesh::Mesh<dim> whole;
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() != 0) return;
+    const std::string file = path_of_mesh(input, folder);
+    if (file != input.mesh_file) mesh::mesh_geometry(input.mesh_file, file, dim);
+    whole = mesh::read_gmsh<dim>(file);
+    if (!problem.pre_cracks.empty()) mesh::open_along<dim>(whole, problem.pre_cracks);
+    check_groups(input, whole);
+  });
+  return mesh::distribute(comm, whole, problem.seeds.empty() ? 0. : problem.micromodulus.horizon);
+}
+
+template Problem<2> make_problem<2>(const Case&);
+template mesh::Mesh<2> load_mesh<2>(const base::Comm&, const Case&, const Problem<2>&, const std::string&);
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,345 @@
+#include "perimorph/fracture/results.hpp"
+
+#include <fmt/ranges.h>
+#include <spdlog/sinks/sink.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/operators/fields.hpp"
+
+namespace perimorph::fracture {
+
+using base::GlobalId;
+
+namespace {
+
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
+template <int dim>
+const std::vector<std::string>& stress_names() {
+  static const std::vector<std::string> names =
+      dim == 2 ? std::vector<std::string>{"stress_xx", "stress_yy", "stress_xy"}
+               : std::vector<std::string>{"stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz", "stress_xy"};
+  return names;
+}
+
+template <int dim>
+typename io::ExodusSeries<dim>::Names variable_names(std::vector<std::string> globals) {
+  typename io::ExodusSeries<dim>::Names names{std::move(globals), {}, {"alpha", "damage", "class", "energy"}};
+  for (int c = 0; c < dim; ++c) names.nodal.push_back(std::string("displacement_") + axis_names[c]);
+  names.element.insert(names.element.end(), stress_names<dim>().begin(), stress_names<dim>().end());
+  return names;
+}
+
+/// FE, MORPH, PD: continuous elements by their class; DGFE: peridynamic ones that have been split off.
+constexpr const char* kind_names[] = {"FE", "MORPH", "PD", "DGFE"};
+template <int dim>
+int kind(const Body<dim>& body, int element) {
+  return body.is_discontinuous(element) ? 3 : static_cast<int>(body.classes()[element]);
+}
+
+/// An element as it travels to rank 0.
+struct ElementRecord {
+  GlobalId id;
+  GlobalId nodes[mesh::max_corners];
+  int block, kind;
+  mesh::ElementType type;
+};
+
+template <int dim>
+std::vector<ElementRecord> own_elements(const Body<dim>& body) {
+  std::vector<ElementRecord> records;
+  const auto& mesh = body.mesh();
+  const auto model = body.model();
+  for (int e = 0; e < mesh.n_owned_elements; ++e) {
+    ElementRecord record{mesh.element_ids[e], {}, mesh.blocks[e], kind(body, e), mesh.types[e]};
+    for (int k = 0; k < mesh.n_corners(e); ++k) record.nodes[k] = model.dofs.global_node(model.dofs.nodes_of(e)[k]);
+    records.push_back(record);
+  }
+  return records;
+}
+
+/// Blocks by material, class and type, elements in each by id. Returns each record's place in the file.
+template <int dim>
+std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records, const std::vector<std::string>& block_names,
+                                  io::ExodusModel<dim>& model) {
+  std::vector<int> order(records.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int i) { return std::make_tuple(records[i].block, records[i].kind, records[i].type); };
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    return key(i) != key(j) ? key(i) < key(j) : records[i].id < records[j].id;
+  });
+  std::vector<int> place(records.size());
+  for (std::size_t position = 0; position < order.size(); ++position) {
+    const auto& record = records[order[position]];
+    place[order[position]] = static_cast<int>(position);
+    if (position == 0 || key(order[position]) != key(order[position - 1])) {
+      std::string name = block_names[record.block] + "_" + kind_names[record.kind];
+      const bool same_name = !model.blocks.empty() && model.blocks.back().name == name;
+      if (same_name) name += "_" + mesh::exodus_name(record.type);
+      model.blocks.push_back({name, record.type, {}, {}});
+    }
+    auto& block = model.blocks.back();
+    block.element_ids.push_back(record.id);
+    for (int k = 0; k < mesh::n_corners(record.type); ++k) block.connectivity.push_back(static_cast<int>(record.nodes[k]));
+  }
+  return place;
+}
+
+template <int dim>
+std::vector<int> own_nodes_in(const Body<dim>& body, const std::vector<int>& reference_nodes) {
+  const auto model = body.model();
+  std::vector<int> found;
+  for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) {
+    if (std::binary_search(reference_nodes.begin(), reference_nodes.end(), model.dofs.reference_node(n))) found.push_back(n);
+  }
+  return found;
+}
+
+template <int dim>
+void gather_groups(const base::Comm& comm, const Body<dim>& body, const std::map<GlobalId, int>& place_of,
+                   io::ExodusModel<dim>& model) {
+  const auto view = body.model();
+  for (const auto& [name, reference_nodes] : body.mesh().node_sets) {
+    std::vector<int> own;
+    for (const int n : own_nodes_in(body, reference_nodes)) own.push_back(static_cast<int>(view.dofs.global_node(n)));
+    model.node_sets[name] = base::gather_on_root(comm, own);
+  }
+  struct SideRecord {
+    GlobalId element;
+    int side;
+  };
+  for (const auto& [name, sides] : body.mesh().side_sets) {
+    std::vector<SideRecord> own;
+    for (const auto& side : sides) {
+      if (side.element < body.mesh().n_owned_elements) own.push_back({body.mesh().element_ids[side.element], side.side});
+    }
+    auto& all = model.side_sets[name];
+    for (const auto& record : base::gather_on_root(comm, own)) all.push_back({place_of.at(record.element), record.side});
+  }
+}
+
+template <int dim>
+std::vector<base::Point<dim>> own_coordinates(const Body<dim>& body) {
+  const auto model = body.model();
+  std::vector<base::Point<dim>> own;
+  for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) own.push_back(model.mesh.coordinates[model.dofs.reference_node(n)]);
+  return own;
+}
+
+/// A trivially copyable stand-in for an Eigen vector.
+template <int dim>
+std::vector<base::Point<dim>> gather_points(const base::Comm& comm, const std::vector<base::Point<dim>>& own) {
+  std::vector<double> flat;
+  for (const auto& x : own) flat.insert(flat.end(), x.begin(), x.end());
+  const auto all = base::gather_on_root(comm, flat);
+  std::vector<base::Point<dim>> points;
+  for (std::size_t i = 0; i < all.size(); i += dim) points.push_back(Eigen::Map<const base::Point<dim>>(all.data() + i));
+  return points;
+}
+
+}  // namespace
+
+template <int dim>
+Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder,
+                      base::Log log, base::Profile& profile)
+    : comm_(comm),
+      log_(std::move(log)),
+      profile_(profile),
+      output_every_(input.output_every),
+      last_increment_(input.increments),
+      shows_progress_(comm->getRank() == 0 && isatty(STDOUT_FILENO) != 0 && log_->sinks().front()->level() <= spdlog::level::info) {
+  for (const auto& group : input.reactions) {
+    for (int c = 0; c < dim; ++c) reactions_.push_back({group + "_" + axis_names[c], group, c});
+  }
+  std::vector<std::string> globals = {"load_factor",   "broken_bonds",  "damaged_elements", "dgfe_elements",
+                                      "unknowns",      "linear_solves", "cg_iterations",    "wall_seconds",
+                                      "elastic_energy", "dissipated_energy", "external_work", "jump_loss"};
+  for (const auto& r : reactions_) globals.push_back("reaction_" + r.column);
+  for (const auto& r : reactions_) globals.push_back("displacement_" + r.column);
+
+  base::on_all_ranks(*comm, [&] {
+    if (comm_->getRank() != 0) return;
+    std::vector<std::string> columns = {"increment"};
+    columns.insert(columns.end(), globals.begin(), globals.end());
+    history_ = std::make_unique<io::History>((std::filesystem::path(folder) / "history.csv").string(), columns);
+    series_ = std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
+                                                      input.title, variable_names<dim>(globals),
+                                                      std::vector<std::string>{"case: " + input.file});
+  });
+}
+
+template <int dim>
+void Results<dim>::accept(int increment, const Body<dim>& body) {
+  const auto timer = profile_.measure(base::Phase::write);
+  const GlobalId broken = body.counts().broken_bonds;
+  const bool new_breaks = broken > broken_before_;
+  if (first_break_ == 0 && new_breaks) first_break_ = increment;
+  total_solves_ += body.counts().linear_solves;
+  total_iterations_ += body.counts().cg_iterations;
+  measure_reactions(increment, body);
+  const auto values = globals(body);
+  if (increment % output_every_ == 0 || new_breaks || increment == last_increment_) write_fields(body, values);
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() != 0) return;
+    std::vector<double> row = {static_cast<double>(increment)};
+    row.insert(row.end(), values.begin(), values.end());
+    history_->write(row);
+    show_line(increment, body);
+  });
+  broken_before_ = broken;
+  seconds_before_ = profile_.elapsed();
+}
+
+/// In the order of the columns of history.csv after "increment". Collective.
+template <int dim>
+std::vector<double> Results<dim>::globals(const Body<dim>& body) const {
+  const auto& counts = body.counts();
+  const Energies energies = body.energies();
+  std::vector<double> values = {body.load_factor(),
+                                static_cast<double>(counts.broken_bonds),
+                                static_cast<double>(counts.damaged_elements),
+                                static_cast<double>(counts.dgfe_elements),
+                                static_cast<double>(counts.unknowns),
+                                static_cast<double>(counts.linear_solves),
+                                static_cast<double>(counts.cg_iterations),
+                                profile_.elapsed(),
+                                energies.elastic,
+                                energies.dissipated,
+                                energies.external_work,
+                                energies.external_work - energies.elastic - energies.dissipated};
+  for (const auto& r : reactions_) values.push_back(r.force);
+  for (const auto& r : reactions_) values.push_back(r.displacement);
+  return values;
+}
+
+template <int dim>
+void Results<dim>::measure_reactions(int increment, const Body<dim>& body) {
+  std::vector<double> sums;  // force, displacement and number of nodes, for each column
+  for (const auto& r : reactions_) {
+    double force = 0., displacement = 0., count = 0.;
+    for (const int n : own_nodes_in(body, body.mesh().node_sets.at(r.group))) {
+      force += body.reaction(n)[r.component];
+      displacement += body.displacement()[n * dim + r.component];
+      count += 1.;
+    }
+    sums.insert(sums.end(), {force, displacement, count});
+  }
+  base::sum(*comm_, sums);
+  for (std::size_t i = 0; i < reactions_.size(); ++i) {
+    auto& r = reactions_[i];
+    r.force = sums[3 * i];
+    r.displacement = sums[3 * i + 1] / std::max(sums[3 * i + 2], 1.);
+    if (std::abs(r.force) <= std::abs(r.peak)) continue;
+    r.peak = r.force;
+    r.peak_increment = increment;
+  }
+}
+
+template <int dim>
+void Results<dim>::show_line(int increment, const Body<dim>& body) {
+  if (shows_progress_) fmt::print("\r\033[K");
+  const auto largest = std::max_element(reactions_.begin(), reactions_.end(),
+                                        [](const auto& a, const auto& b) { return std::abs(a.peak) < std::abs(b.peak); });
+  if (increment == 1) {
+    log_->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load",
+               reactions_.empty() ? "reaction" : "reaction " + largest->column, "new broken", "all broken", "DGFE", "unknowns", "solves",
+               "its", "seconds");
+  }
+  const auto& counts = body.counts();
+  log_->info("{:>6} {:>9.4g} {:>22.6g} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9.2f}", increment, body.load_factor(),
+             reactions_.empty() ? 0. : largest->force, counts.broken_bonds - broken_before_, counts.broken_bonds,
+             counts.dgfe_elements, counts.unknowns, counts.linear_solves, counts.cg_iterations,
+             profile_.elapsed() - seconds_before_);
+}
+
+template <int dim>
+void Results<dim>::show_progress(int increment, const Body<dim>& body) {
+  if (!shows_progress_) return;
+  constexpr int width = 30;
+  const int done = width * (increment - 1) / last_increment_;
+  fmt::print("\r\033[K[{:=<{}}{:>{}}] step {}/{}: {} solves, {} broken bonds", ">", done + 1, "", width - done, increment,
+             last_increment_, body.counts().linear_solves, body.counts().broken_bonds);
+  std::fflush(stdout);
+}
+
+template <int dim>
+void Results<dim>::summarize(const Body<dim>& body) {
+  if (shows_progress_) fmt::print("\r\033[K");
+  const auto& counts = body.counts();
+  log_->info("");
+  log_->info("broken bonds     {}{}", counts.broken_bonds,
+             first_break_ > 0 ? fmt::format(", the first in step {}", first_break_) : "");
+  log_->info("damaged elements {}, discontinuous {}", counts.damaged_elements, counts.dgfe_elements);
+  log_->info("linear solves    {} with {} iterations; {} topologies", total_solves_, total_iterations_, counts.topologies);
+  for (const auto& r : reactions_) {
+    if (std::abs(r.peak) > 0.) {
+      log_->info("reaction {:<24} peak {:>12.6g} in step {}, last {:>12.6g}", r.column, r.peak, r.peak_increment, r.force);
+    }
+  }
+  log_->info("\n{}", profile_.table());
+}
+
+template <int dim>
+void Results<dim>::start_file(const Body<dim>& body) {
+  io::ExodusModel<dim> model;
+  model.coordinates = gather_points<dim>(*comm_, own_coordinates(body));
+  const auto records = base::gather_on_root(*comm_, own_elements(body));
+  element_place_ = sort_into_blocks(records, body.mesh().block_names, model);
+  std::map<GlobalId, int> place_of;
+  for (std::size_t i = 0; i < records.size(); ++i) place_of[records[i].id] = element_place_[i];
+  gather_groups(*comm_, body, place_of, model);
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) series_->start(model);
+  });
+}
+
+template <int dim>
+void Results<dim>::write_fields(const Body<dim>& body, const std::vector<double>& global_values) {
+  if (topology_written_ != body.counts().topologies) start_file(body);
+  topology_written_ = body.counts().topologies;
+
+  const auto model = body.model();
+  io::ExodusStep step{body.load_factor(), global_values, {}, {}};
+  for (int c = 0; c < dim; ++c) {
+    std::vector<double> own;
+    for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) own.push_back(body.displacement()[n * dim + c]);
+    step.nodal.push_back(base::gather_on_root(*comm_, own));
+  }
+  const auto fields = operators::element_fields(model, body.displacement(), body.displacement_at_points());
+  std::vector<std::vector<double>> own(4 + stress_names<dim>().size());
+  for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
+    double alpha = 0., damage = 0.;
+    for (int p = model.points.first(e); p < model.points.first(e + 1); ++p) {
+      alpha += model.alpha(p) / model.points.count(e);
+      damage += model.bonds.damage(p) / model.points.count(e);
+    }
+    own[0].push_back(alpha);
+    own[1].push_back(damage);
+    own[2].push_back(kind(body, e));
+    own[3].push_back(fields.energy[e]);
+    for (int v = 0; v < base::n_voigt<dim>; ++v) own[4 + v].push_back(fields.stress[e][v]);
+  }
+  for (const auto& values : own) step.element.push_back(in_file_order(values));
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) series_->write(step);
+  });
+}
+
+template <int dim>
+std::vector<double> Results<dim>::in_file_order(const std::vector<double>& own_elements) const {
+  const auto gathered = base::gather_on_root(*comm_, own_elements);
+  std::vector<double> ordered(gathered.size());
+  for (std::size_t i = 0; i < gathered.size(); ++i) ordered[element_place_[i]] = gathered[i];
+  return ordered;
+}
+
+template class Results<2>;
+
+}  // namespace perimorph::fracture

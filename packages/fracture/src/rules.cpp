@@ -1,0 +1,114 @@
+#include "rules.hpp"
+
+#include <Teuchos_Array.hpp>
+#include <Teuchos_ParameterListExceptions.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <ostream>
+#include <utility>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
+
+namespace perimorph::fracture {
+
+namespace {
+
+using Teuchos::ParameterEntry;
+
+template <class T, class Condition>
+RulePtr rule(const std::string& allowed, Condition condition, std::vector<std::string> choices = {}) {
+  const auto test = [condition](const ParameterEntry& entry) {
+    return entry.isType<T>() && condition(Teuchos::getValue<T>(entry));
+  };
+  return Teuchos::rcp(new Rule(allowed, test, std::move(choices)));
+}
+
+}  // namespace
+
+Rule::Rule(std::string allowed, Test test, std::vector<std::string> choices)
+    : allowed_(std::move(allowed)), test_(std::move(test)), choices_(std::move(choices)) {}
+
+Rule Rule::with_presence(Presence presence) const {
+  Rule copy = *this;
+  copy.presence_ = presence;
+  return copy;
+}
+
+void Rule::printDoc(const std::string& documentation, std::ostream& out) const {
+  out << "# " << documentation << "\n# Allowed is " << allowed_ << "\n";
+}
+
+Rule::ValidStringsList Rule::validStringValues() const {
+  if (choices_.empty()) return Teuchos::null;
+  return Teuchos::rcp(new Teuchos::Array<std::string>(choices_));
+}
+
+void Rule::validate(const ParameterEntry& entry, const std::string& name, const std::string& list) const {
+  if (accepts(entry)) return;
+  throw Teuchos::Exceptions::InvalidParameterValue(
+      fmt::format("{}/{}: found {}; allowed is {}", list, name, Teuchos::toString(entry.getAny(false)), allowed_));
+}
+
+RulePtr required(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_presence(Presence::required))); }
+RulePtr optional(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_presence(Presence::optional))); }
+
+RulePtr any_text() {
+  return rule<std::string>("any text", [](const std::string&) { return true; });
+}
+
+RulePtr text(const std::string& what) {
+  return rule<std::string>(what, [](const std::string& value) { return !value.empty(); });
+}
+
+RulePtr mesh_file() {
+  return rule<std::string>("the name of a .geo or .msh file", [](const std::string& value) {
+    const std::string ending = std::filesystem::path(value).extension();
+    return ending == ".geo" || ending == ".msh";
+  });
+}
+
+RulePtr one_of(std::vector<std::string> choices) {
+  const auto is_one = [choices](const std::string& value) {
+    return std::find(choices.begin(), choices.end(), value) != choices.end();
+  };
+  return rule<std::string>(base::quoted_list(choices, " or "), is_one, choices);
+}
+
+RulePtr any_number() {
+  return rule<double>("any number", [](double value) { return std::isfinite(value); });
+}
+
+RulePtr above(double low) {
+  return rule<double>(fmt::format("a number > {}", low), [low](double value) { return value > low; });
+}
+
+RulePtr at_least(double low) {
+  return rule<double>(fmt::format("a number >= {}", low), [low](double value) { return value >= low; });
+}
+
+RulePtr between(double low, double high) {
+  return rule<double>(fmt::format("a number > {} and < {}", low, high),
+                      [low, high](double value) { return value > low && value < high; });
+}
+
+RulePtr count() {
+  return rule<int>("a whole number >= 1", [](int value) { return value >= 1; });
+}
+
+RulePtr exactly(int value, const std::string& reason) {
+  return rule<int>(fmt::format("{}: {}", value, reason), [value](int found) { return found == value; });
+}
+
+RulePtr numbers(const std::string& what) {
+  return rule<Teuchos::Array<double>>(what, [](const Teuchos::Array<double>&) { return true; });
+}
+
+RulePtr names(const std::string& what) {
+  return rule<Teuchos::Array<std::string>>(what, [](const Teuchos::Array<std::string>& values) {
+    return std::none_of(values.begin(), values.end(), [](const std::string& value) { return value.empty(); });
+  });
+}
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,151 @@
+#include "perimorph/fracture/run.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <Teuchos_XMLParameterListHelpers.hpp>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/fracture/adaptive_loop.hpp"
+
+namespace perimorph::fracture {
+
+using base::GlobalId;
+
+namespace {
+
+void make_folder(const base::Comm& comm, const std::string& folder) {
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() != 0) return;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw base::UserError(fmt::format("{}: the output folder cannot be made: {}", folder, error.message()));
+  });
+}
+
+void write_resolved(const base::Comm& comm, const Case& input, const std::string& file) {
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() != 0) return;
+    std::ofstream stream(file);
+    Teuchos::writeParameterListToXmlOStream(input.resolved, stream);
+    stream.close();
+    if (!stream) throw base::UserError(fmt::format("{}: cannot be written", file));
+  });
+}
+
+template <int dim>
+void describe(const base::Comm& comm, const Case& input, const Problem<dim>& problem, const mesh::Mesh<dim>& mesh,
+              const base::Log& log) {
+  log->info("{}", input.title.empty() ? input.name : input.title);
+  log->info("mesh             {}: {} elements, {} nodes on {} rank{}", input.mesh_file, mesh.n_global_elements,
+            mesh.n_global_nodes, comm.getSize(), comm.getSize() == 1 ? "" : "s");
+  log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
+            problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
+  if (std::isinf(problem.critical_stretch)) {
+    log->info("fracture         none: neither critical stretch nor fracture energy is given");
+  } else {
+    log->info("fracture         critical stretch s_crit = {:.6g}, fracture energy G_c = {:.6g}", problem.critical_stretch,
+              problem.fracture_energy);
+  }
+}
+
+template <int dim>
+void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, bool quiet) {
+  base::Profile profile;
+  make_folder(*comm, folder);
+  base::Log log;
+  base::on_all_ranks(*comm, [&] { log = base::make_log(*comm, quiet, folder + "/run.log"); });
+  try {
+    write_resolved(*comm, input, folder + "/resolved.xml");
+    const auto problem = make_problem<dim>(input);
+    const auto mesh = [&] {
+      const auto timer = profile.measure(base::Phase::read);
+      return load_mesh(*comm, input, problem, folder);
+    }();
+    describe(*comm, input, problem, mesh, log);
+    Body<dim> body(comm, mesh, problem, body_options(input), profile);
+    Results<dim> results(comm, input, folder, log, profile);
+    run_adaptive_loop(body, results, {input.increments, input.max_damage_iterations, input.max_zone_growths});
+    results.summarize(body);
+  } catch (const std::exception& error) {
+    log->info("\n{}\n{}", error.what(), profile.table());
+    throw;
+  }
+}
+
+/// "/Section/Sub/Name = value", a line each.
+std::string listing(const Teuchos::ParameterList& list, const std::string& path) {
+  std::string text;
+  for (const auto& item : list) {
+    const auto& entry = item.second;
+    const std::string full = path + "/" + item.first;
+    text += entry.isList() ? listing(list.sublist(item.first), full)
+                           : fmt::format("{} = {}\n", full, Teuchos::toString(entry.getAny(false)));
+  }
+  return text;
+}
+
+/// A folder that goes when this goes.
+struct TemporaryFolder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("perimorph-check-" + std::to_string(getpid()));
+  TemporaryFolder() { std::filesystem::create_directories(path); }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+/// Peak memory of this process so far, [bytes].
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024. * static_cast<double>(usage.ru_maxrss);
+}
+
+template <int dim>
+void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, bool quiet) {
+  base::Profile profile;
+  const TemporaryFolder folder;
+  const auto log = base::make_log(*comm, quiet);
+  const auto problem = make_problem<dim>(input);
+  const auto mesh = load_mesh(*comm, input, problem, folder.path.string());
+  log->info("{}", listing(input.resolved, ""));
+  describe(*comm, input, problem, mesh, log);
+
+  Body<dim> body(comm, mesh, problem, body_options(input), profile);
+  body.update_topology();
+  const auto model = body.model();
+  GlobalId n_bonds = 0;
+  std::array<double, 3> elements_of_class{};
+  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
+    const bool is_counted_here = model.bonds.pair(p).first < mesh.n_owned_elements;
+    if (is_counted_here) n_bonds += static_cast<GlobalId>(model.bonds.first_bond(p + 1) - model.bonds.first_bond(p));
+  }
+  for (int e = 0; e < mesh.n_owned_elements; ++e) elements_of_class[static_cast<int>(body.classes()[e])] += 1.;
+  std::vector<double> sums(elements_of_class.begin(), elements_of_class.end());
+  sums.push_back(peak_memory());
+  base::sum(*comm, sums);
+  n_bonds = base::sum(*comm, n_bonds);
+  log->info("elements         {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", sums[0], sums[1], sums[2],
+            body.counts().dgfe_elements);
+  log->info("at the start     {} unknowns, {} bonds, {:.2f} GB with the assembled matrix", body.counts().unknowns, n_bonds,
+            sums[3] / 1e9);
+  log->info("The zone grows with the cracks, and unknowns, bonds and memory with it.");
+}
+
+}  // namespace
+
+void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, bool quiet) { check_in<2>(comm, input, quiet); }
+
+void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, bool quiet) {
+  run_in<2>(comm, input, folder, quiet);
+}
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,271 @@
+// Every parameter of the case file: name, default (or an example, where there is none), documentation, rule. Units
+// stand in brackets; perimorph knows none, so that any consistent set will do (mm, N and MPa; or m, N and Pa).
+
+#include <Teuchos_Array.hpp>
+#include <sstream>
+
+#include "choices.hpp"
+#include "literal.hpp"
+#include "perimorph/fracture/case.hpp"
+#include "rules.hpp"
+
+namespace perimorph::fracture {
+
+namespace {
+
+using Numbers = Teuchos::Array<double>;
+using Texts = Teuchos::Array<std::string>;
+using Teuchos::ParameterList;
+
+/// A section, or with the name "*" the template of entries that the user names.
+ParameterList& section(ParameterList& parent, const std::string& name, const std::string& documentation) {
+  return parent.sublist(name, false, documentation);
+}
+
+void declare_general(ParameterList& root) {
+  root.set("Title", "", "A line about the case, for people.", any_text());
+  root.set("Dimension", 2, "Dimensions of space.", exactly(2, "three dimensions are not built yet"));
+  section(root, "Mesh", "Where the body comes from.")
+      .set("File", "plate.geo",
+           "gmsh geometry (.geo, meshed on the way and kept) or mesh (.msh), relative to the case file's folder. Its "
+           "physical groups are the names that boundary conditions refer to.",
+           required(mesh_file()));
+}
+
+void declare_material(ParameterList& root) {
+  ParameterList& material =
+      section(root, "Material", "One homogeneous, isotropic, linearly elastic, brittle material.");
+  material.set("Young's Modulus", 30000., "E [stress].", required(above(0.)));
+  material.set(
+      "Poisson's Ratio", 1. / 3.,
+      "nu [-]. Bond-based peridynamics, with central forces between pairs of points, has one ratio only: 1/3 in "
+      "plane stress, 1/4 in plane strain. A value within 0.1 % of it (0.333) is taken as exactly that.",
+      required(any_number()));
+  material.set(
+      "Elastic Model", "Plane Stress",
+      "What is assumed across the thickness, which is 1 [length]: thin plates are in plane stress, long bodies "
+      "in plane strain.",
+      required(one_of(words(elastic_models))));
+  material.set(
+      "Critical Stretch", 0.05,
+      "s_crit [-]: a bond whose stretch reaches it breaks for good [WHL19, eq. 6, 7]. Given the horizon and the "
+      "characteristic length it follows from the fracture energy, so give one of the two; with neither, nothing "
+      "breaks.",
+      optional(above(0.)));
+  material.set(
+      "Fracture Energy", 0.1,
+      "G_c [force/length]: the energy per area of new crack. The critical stretch is derived from it, so that it "
+      "stays the same when the horizon or the characteristic length is changed.",
+      optional(above(0.)));
+}
+
+void declare_peridynamics(ParameterList& root) {
+  ParameterList& peridynamics = section(root, "Peridynamics", "The nonlocal model inside the peridynamic zone.");
+  peridynamics.set(
+      "Horizon", 1.5,
+      "delta [length]: the longest bond. Three element sizes are usual. Much less leaves too few bonds, and "
+      "cracks follow the mesh; more costs with its square.",
+      required(above(0.)));
+  peridynamics.set("Micromodulus", "Exponential",
+                   "Stiffness of a bond over its length: c0(xi) = tau0 exp(-|xi|/l) [WHL19, eq. 24]; tau0 follows from "
+                   "Young's modulus [WHL19, eq. 17].",
+                   one_of({"Exponential"}));
+  peridynamics.set(
+      "Characteristic Length", 0.1,
+      "l [length] in the micromodulus, below the horizon. WHL19 takes a fifth of the element size, a "
+      "fifteenth of the horizon. From a ninth of the horizon on, the horizon cuts the micromodulus off: the "
+      "body is too soft and the fracture energy falls short.",
+      required(above(0.)));
+}
+
+void declare_seeds(ParameterList& morphing) {
+  ParameterList& seeds =
+      section(morphing, "Seeds",
+              "The first peridynamic zones, each a list with a name of your choice. Put one wherever a "
+              "crack may start: nothing breaks outside. Without any the body is classical throughout.");
+  ParameterList& seed = section(seeds, "*", "One zone. The morphing function is 1 inside and falls to 0 around it.");
+  seed.set("Shape", "Circle",
+           "\"Circle\" takes the center and the two radii, \"Box\" the corners and the rim, \"Everything\" nothing.",
+           one_of(words(seed_shapes)));
+  seed.set("Center", Numbers{{0., 0.}}, "Of a circle: x_0 [length].", optional(numbers("a point such as {1.5, 2}")));
+  seed.set("Inner Radius", 4., "Of a circle: r_1 [length], up to which the morphing function is 1.",
+           optional(above(0.)));
+  seed.set("Outer Radius", 6.,
+           "Of a circle: r_2 [length], from which the morphing function is 0. A ring thinner than the horizon gives "
+           "spurious forces where the models meet.",
+           optional(above(0.)));
+  seed.set("Lower Corner", Numbers{{-4., -4.}}, "Of a box: its smallest coordinates [length].",
+           optional(numbers("a point such as {1.5, 2}")));
+  seed.set("Upper Corner", Numbers{{4., 4.}}, "Of a box: its largest coordinates [length].",
+           optional(numbers("a point such as {1.5, 2}")));
+  seed.set("Rim", 2., "Of a box: the width around it over which the morphing function falls from 1 to 0 [length].",
+           optional(above(0.)));
+}
+
+void declare_morphing(ParameterList& root) {
+  ParameterList& morphing = section(root, "Morphing", "Where the body is peridynamic, and how that zone grows.");
+  morphing.set("Function", "Linear", "How the morphing function alpha falls from 1 to 0 across a zone's rim.",
+               one_of(words(morphing_profiles)));
+  morphing.set(
+      "Discontinuous Elements", "On Damage",
+      "Which peridynamic elements get nodes of their own: all of the zone (\"Whole Zone\", as WHL19 does), or only "
+      "those with a broken bond or beside a pre-crack (\"On Damage\": fewer unknowns, and more accurate before "
+      "fracture).",
+      one_of(words(discontinuous_elements)));
+  morphing.set(
+      "Stiffness in Peridynamic Zone", "Dropped",
+      "What becomes of the classical stiffness E(x) [WHL19, eq. 16] where all bonds are peridynamic: \"Dropped\", "
+      "as WHL19 does, or \"Kept\" where bonds are missing at free surfaces, which are too soft otherwise.",
+      one_of(words(peridynamic_stiffnesses)));
+  morphing.set("Growth Inner Radius", 2.,
+               "r_i [horizons]: around the centroid of an element with a broken bond the zone grows to this radius "
+               "[WHL19, eq. 23]. Below 1 a crack can reach the rim of its zone, where nothing breaks.",
+               above(0.));
+  morphing.set("Growth Outer Radius", 4., "r_o [horizons]: where the morphing function of such a new zone reaches 0.",
+               above(0.));
+  declare_seeds(morphing);
+}
+
+void declare_pre_cracks(ParameterList& root) {
+  ParameterList& cracks = section(root, "Pre-Cracks",
+                                  "Cracks without width that are there from the start, each a list with a name of your "
+                                  "choice. No bond crosses one, and elements part along it.");
+  section(cracks, "*", "One crack.")
+      .set("Points", Numbers{{0., 0., 10., 0.}},
+           "Its corners {x1, y1, x2, y2, ...} [length]. Element edges should lie along it.",
+           required(numbers("{x1, y1, x2, y2, ...}")));
+}
+
+void declare_displacements(ParameterList& conditions) {
+  ParameterList& displacements =
+      section(conditions, "Displacements",
+              "Prescribed displacements, each a list with a name of your choice: one component "
+              "of one group. In increment k it is Rate * k + Constant.");
+  ParameterList& one = section(displacements, "*", "One component of one group.");
+  one.set("Group", "left", "A physical group of the mesh.", required(text("the name of a group")));
+  one.set("Component", "x", "The direction held or moved; the others stay free.", required(one_of(words(components))));
+  one.set("Rate", 0., "[length per increment]", any_number());
+  one.set("Constant", 0., "[length]", any_number());
+}
+
+void declare_boundary_conditions(ParameterList& root) {
+  ParameterList& conditions = section(root, "Boundary Conditions", "What holds the body and what loads it.");
+  declare_displacements(conditions);
+  ParameterList& tractions =
+      section(conditions, "Tractions",
+              "Forces on parts of the boundary, each a list with a name of your choice. In increment "
+              "k the traction is Rate * k + Constant.");
+  ParameterList& one = section(tractions, "*", "The traction on one group.");
+  one.set("Group", "right", "A physical group of the mesh: part of its boundary.",
+          required(text("the name of a group")));
+  one.set("Rate", Numbers(), "[stress per increment], one number per dimension; {} is zero.", numbers("{x, y}"));
+  one.set("Constant", Numbers(), "[stress], one number per dimension; {} is zero.", numbers("{x, y}"));
+  ParameterList& body = section(conditions, "Body Force", "Force per volume: Rate * k + Constant in increment k.");
+  body.set("Rate", Numbers(), "[force/volume per increment], one number per dimension; {} is zero.", numbers("{x, y}"));
+  body.set("Constant", Numbers(), "[force/volume], one number per dimension; {} is zero.", numbers("{x, y}"));
+}
+
+void declare_loading(ParameterList& root) {
+  ParameterList& loading = section(root, "Loading", "How far to go, and when to give up.");
+  loading.set("Increments", 100, "Load steps k = 1, 2, ... up to this one.", required(count()));
+  loading.set(
+      "Maximum Damage Iterations", 20000,
+      "Solutions within one increment, after which the run ends with status 3. An unstable crack takes hundreds to "
+      "thousands.",
+      count());
+  loading.set("Maximum Zone Growths", 5000,
+              "Growths of the peridynamic zone within one increment, after which the run ends with status 3.", count());
+}
+
+void declare_solver(ParameterList& root) {
+  ParameterList& solver = section(root, "Solver", "Conjugate gradients with an algebraic multigrid preconditioner.");
+  solver.set("Operator", "CRS", "How the coupled stiffness is held: \"CRS\" is an assembled sparse matrix.",
+             one_of(words(operator_forms)));
+  solver.set("Tolerance", 1e-8,
+             "Residual over the norm of the reaction forces [-]. Too loose, and bonds break in another order.",
+             between(0., 1.));
+  solver.set("Maximum Iterations", 500, "Of conjugate gradients in one solution.", count());
+  solver.set("Rebuild Growth", 1.5,
+             "The preconditioner is set up anew when a solution takes more than this times the iterations that it took "
+             "after the last set-up [-].",
+             at_least(1.));
+  section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
+  section(solver, "MueLu", "Any parameters of MueLu, handed on as they are, over the program's own.");
+}
+
+void declare_output(ParameterList& root) {
+  ParameterList& output = section(root, "Output", "What is written, into the folder given by --output.");
+  output.set("Every", 1,
+             "Fields are written every so many increments; those with a break and the last one are written anyway.",
+             count());
+  output.set(
+      "Reactions", Texts(),
+      "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed displacement.",
+      names("a list of groups such as {left, right}"));
+}
+
+/// The text broken into lines, each indented.
+std::string wrapped(const std::string& text, const std::string& indent) {
+  constexpr std::size_t width = 100;
+  std::string all, line = indent;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) {
+    if (line.size() > indent.size() && line.size() + 1 + word.size() > width) {
+      all += line + "\n";
+      line = indent;
+    }
+    line += (line.size() > indent.size() ? " " : "") + word;
+  }
+  return all + line + "\n";
+}
+
+std::string describe_parameter(const std::string& path, const Teuchos::ParameterEntry& entry) {
+  const Rule& rule = dynamic_cast<const Rule&>(*entry.validator());
+  const std::string value = to_literal(entry);
+  const std::string presence = rule.presence() == Presence::required   ? "required, such as " + value
+                               : rule.presence() == Presence::optional ? "optional, such as " + value
+                                                                       : "default " + (value.empty() ? "\"\"" : value);
+  return fmt::format("{}\n    {}; {}; allowed is {}\n{}\n", path, type_of(entry), presence, rule.allowed(),
+                     wrapped(entry.docString(), "    "));
+}
+
+std::string describe_list(const ParameterList& list, const std::string& path) {
+  std::string text;
+  for (const auto& item : list) {
+    const std::string here = path + "/" + item.first;
+    if (item.second.isList()) {
+      text += here + "/\n" + wrapped(item.second.docString(), "    ") + "\n" +
+              describe_list(list.sublist(item.first), here);
+    } else {
+      text += describe_parameter(here, item.second);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+ParameterList case_schema() {
+  ParameterList root("perimorph");
+  declare_general(root);
+  declare_material(root);
+  declare_peridynamics(root);
+  declare_morphing(root);
+  declare_pre_cracks(root);
+  declare_boundary_conditions(root);
+  declare_loading(root);
+  declare_solver(root);
+  declare_output(root);
+  return root;
+}
+
+std::string describe_schema() {
+  return "Every parameter of a case file. A path such as /Solver/Tolerance is\n"
+         "    <ParameterList name=\"Solver\"> <Parameter name=\"Tolerance\" type=\"double\" value=\"1e-8\"/> "
+         "</ParameterList>\n"
+         "in the file, and --set \"Solver/Tolerance=1e-8\" on the command line; * is a name of your choice.\n"
+         "Units are in brackets; any consistent set will do.\n\n" +
+         describe_list(case_schema(), "");
+}
+
+}  // namespace perimorph::fracture

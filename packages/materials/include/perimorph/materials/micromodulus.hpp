@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cmath>
+
+#include "perimorph/materials/elasticity.hpp"
+
+namespace perimorph::materials {
+
+/// c0(r) = tau0 exp(-r/l) up to the horizon, 0 beyond [WHL19, eq. 24]. A bond's force is c0 (xi . eta) xi per volume^2.
+struct Micromodulus {
+  double tau0;                   ///< [stress / length^(dim+4) * length^2]: E0 = 1/2 Int c0 xi^4 dV  [WHL19, eq. 17]
+  double characteristic_length;  ///< l, [length]
+  double horizon;                ///< delta, [length]
+
+  double operator()(double distance) const {
+    return distance <= horizon ? tau0 * std::exp(-distance / characteristic_length) : 0.;
+  }
+};
+
+/// I_n = Int_0^delta r^n exp(-r/l) dr in closed form, [length^(n+1)].
+double kernel_moment(int n, double characteristic_length, double horizon);
+
+/// The micromodulus whose integral over a full neighbourhood gives E0 [WHL19, eq. 17], analytic:
+/// tau0 = 8 C1111 / (3 pi I5) in 2D, tau0 = 5 C1111 / (2 pi I6) in 3D.
+template <int dim>
+Micromodulus calibrate(ElasticModel model, double youngs_modulus, double characteristic_length, double horizon);
+
+/// Energy per new crack area of all bonds that cross it, broken at the critical stretch, [energy / area]:
+/// G_c = s_c^2 tau0 I6 in 2D, s_c^2 tau0 I7 pi/2 in 3D (bond energy 1/2 c0 s^2 r^4, integrated as Silling and Askari 2005).
+template <int dim>
+double fracture_energy(const Micromodulus& micromodulus, double critical_stretch);
+
+/// The inverse of fracture_energy. @param energy G_c, [energy / area]
+template <int dim>
+double critical_stretch(const Micromodulus& micromodulus, double energy);
+
+}  // namespace perimorph::materials

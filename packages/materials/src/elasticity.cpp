@@ -1,0 +1,26 @@
+#include "perimorph/materials/elasticity.hpp"
+
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::materials {
+
+double bond_based_poissons_ratio(ElasticModel model) { return model == ElasticModel::plane_stress ? 1. / 3. : 1. / 4.; }
+
+template <int dim>
+base::Stiffness<dim> elasticity_tensor(ElasticModel model, double youngs_modulus, double poissons_ratio) {
+  PERIMORPH_ASSERT((model == ElasticModel::three_dimensional) == (dim == 3), "dimension {}", dim);
+  const double nu = poissons_ratio;
+  const double mu = youngs_modulus / (2. * (1. + nu));
+  // Plane stress eliminates the strain through the thickness; otherwise lambda is that of three dimensions.
+  const double lambda = model == ElasticModel::plane_stress ? youngs_modulus * nu / (1. - nu * nu)
+                                                            : youngs_modulus * nu / ((1. + nu) * (1. - 2. * nu));
+  base::Stiffness<dim> tensor = base::Stiffness<dim>::Zero();
+  tensor.template topLeftCorner<dim, dim>().setConstant(lambda);
+  for (int i = 0; i < base::n_voigt<dim>; ++i) tensor(i, i) += i < dim ? 2. * mu : mu;
+  return tensor;
+}
+
+template base::Stiffness<2> elasticity_tensor<2>(ElasticModel, double, double);
+template base::Stiffness<3> elasticity_tensor<3>(ElasticModel, double, double);
+
+}  // namespace perimorph::materials

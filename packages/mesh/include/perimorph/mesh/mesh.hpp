@@ -1,0 +1,84 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "perimorph/base/algebra.hpp"
+#include "perimorph/mesh/element_type.hpp"
+
+namespace perimorph::mesh {
+
+using base::GlobalId;
+using base::Point;
+
+/// A side (edge in 2D, face in 3D) of an element: local index of the element, number of the side as in sides(type).
+struct Side {
+  int element;
+  int side;
+};
+
+/// The reference mesh, or the part of it that one rank holds: its own elements and a halo of its neighbours'.
+/// As read from a file it is whole, lies on rank 0 and belongs to rank 0; distribute() gives every rank its part.
+/// Nothing in it changes afterwards: elements that become discontinuous change only degrees of freedom.
+///
+/// Local indices are ints. Local elements are ordered: owned ones first, then the halo, each by ascending global id.
+/// Local nodes likewise: owned, then others, by ascending global id. A rank's part holds all elements around each node
+/// that it owns.
+template <int dim>
+struct Mesh {
+  // Nodes, indexed by local node.
+  std::vector<Point<dim>> coordinates;  ///< [length]
+  std::vector<GlobalId> node_ids;       ///< 0-based, contiguous over the whole mesh
+  std::vector<int> node_owners;         ///< rank
+
+  // Elements, indexed by local element.
+  std::vector<ElementType> types;
+  std::vector<int> blocks;             ///< index into block_names
+  std::vector<GlobalId> element_ids;   ///< 0-based, contiguous over the whole mesh
+  std::vector<int> element_owners;     ///< rank
+  std::vector<int> first_corner = {0};  ///< corners of element e: corners[first_corner[e]] ... corners[first_corner[e+1]-1]
+  std::vector<int> corners;            ///< local node of each corner
+
+  // Groups: every physical group of the mesh's own dimension is a block, one of lower dimension a node set, one of
+  // dimension dim-1 also a side set. All names are known on all ranks, also where the local list is empty.
+  std::vector<std::string> block_names;
+  std::map<std::string, std::vector<int>> node_sets;   ///< local nodes, ascending
+  std::map<std::string, std::vector<Side>> side_sets;  ///< sides of local elements
+
+  /// Sides of local elements that belong to one element of the whole body only: its boundary, pre-cracks included.
+  std::vector<Side> boundary;
+
+  int rank = 0;
+  int n_owned_nodes = 0;
+  int n_owned_elements = 0;
+  GlobalId n_global_nodes = 0;
+  GlobalId n_global_elements = 0;
+
+  int n_nodes() const { return static_cast<int>(coordinates.size()); }
+  int n_elements() const { return static_cast<int>(types.size()); }
+  int n_corners(int element) const { return first_corner[element + 1] - first_corner[element]; }
+  const int* corners_of(int element) const { return corners.data() + first_corner[element]; }
+};
+
+/// Mean of an element's corners, [length].
+template <int dim>
+Point<dim> centroid(const Mesh<dim>& mesh, int element);
+
+/// Largest distance from an element's centroid to one of its corners, [length].
+template <int dim>
+double radius(const Mesh<dim>& mesh, int element);
+
+/// Corner coordinates of a side, in its outward order, [length].
+template <int dim>
+std::vector<Point<dim>> corner_points(const Mesh<dim>& mesh, const Side& side);
+
+/// Mean length of all element edges, [length], of the local elements (an inner edge counts once per element).
+template <int dim>
+double mean_edge(const Mesh<dim>& mesh);
+
+/// Fills boundary with the sides that only one local element has. For a whole mesh only.
+template <int dim>
+void find_boundary(Mesh<dim>& mesh);
+
+}  // namespace perimorph::mesh

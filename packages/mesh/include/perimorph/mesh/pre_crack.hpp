@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "perimorph/mesh/mesh.hpp"
+
+namespace perimorph::mesh {
+
+/// One flat piece of a pre-crack, without thickness: a segment in 2D, a triangle in 3D, [length].
+template <int dim>
+using CrackFacet = std::array<Point<dim>, dim>;
+
+/// Opens a whole mesh along a pre-crack: where the crack runs along sides of elements, the nodes strictly inside it
+/// (and on the body's boundary) are doubled so that the two sides part; its tips stay closed. Node sets get the new
+/// nodes too, the boundary the new sides. Sides count as on the crack if all corners lie on it within 1e-6 of their
+/// length. Returns how many sides were opened (0: the crack cuts through elements). Local; called on rank 0.
+template <int dim>
+int open_along(Mesh<dim>& whole, const std::vector<CrackFacet<dim>>& crack);
+
+}  // namespace perimorph::mesh

@@ -1,0 +1,283 @@
+#include "perimorph/mesh/distribute.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+
+#include "packed_mesh.hpp"
+#include "partition.hpp"
+#include "perimorph/base/errors.hpp"
+#include "sorted_sides.hpp"
+
+namespace perimorph::mesh {
+
+namespace {
+
+/// Each element by its bounding ball, [length].
+template <int dim>
+struct Balls {
+  std::vector<Point<dim>> centers;
+  std::vector<double> radii;
+};
+
+template <int dim>
+Balls<dim> balls_of(const Mesh<dim>& mesh) {
+  Balls<dim> balls;
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    balls.centers.push_back(centroid(mesh, e));
+    balls.radii.push_back(radius(mesh, e));
+  }
+  return balls;
+}
+
+/// Who owns what of a whole mesh.
+struct Owners {
+  std::vector<int> elements;
+  std::vector<int> nodes;
+};
+
+template <int dim>
+Owners owners(const Mesh<dim>& whole, std::vector<int> element_owners) {
+  std::vector<int> node_owners(whole.n_nodes(), std::numeric_limits<int>::max());
+  for (int e = 0; e < whole.n_elements(); ++e) {
+    for (int c = 0; c < whole.n_corners(e); ++c) {
+      int& owner = node_owners[whole.corners_of(e)[c]];
+      owner = std::min(owner, element_owners[e]);
+    }
+  }
+  return {std::move(element_owners), std::move(node_owners)};
+}
+
+// ---- which elements a rank needs ----
+
+/// Some balls in a tree: finds out whether any of them comes near another ball.
+template <int dim>
+class BallTree {
+ public:
+  BallTree(const Balls<dim>& all, std::vector<int> members, double reach)
+      : all_(all), members_(std::move(members)), reach_(reach), tree_(dim, *this) {
+    for (const int m : members_) {
+      box_.extend(all_.centers[m]);
+      largest_radius_ = std::max(largest_radius_, all_.radii[m]);
+    }
+  }
+
+  /// |c_e - c_a| <= reach + R_e + R_a for any member a.
+  bool is_near(int element) const {
+    const Point<dim>& center = all_.centers[element];
+    const double search_radius = (reach_ + all_.radii[element] + largest_radius_) * (1. + 1e-9);
+    if (box_.exteriorDistance(center) > search_radius) return false;
+    FirstNear result{*this, element, search_radius * search_radius};
+    tree_.findNeighbors(result, center.data(), nanoflann::SearchParams());
+    return result.found;
+  }
+
+  // What nanoflann asks of a set of points.
+  std::size_t kdtree_get_point_count() const { return members_.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t d) const { return all_.centers[members_[i]][static_cast<int>(d)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+
+ private:
+  /// A nanoflann result set that ends the search at the first member near enough.
+  struct FirstNear {
+    const BallTree& tree;
+    int element;
+    double squared_radius;
+    bool found = false;
+
+    bool full() const { return true; }
+    double worstDist() const { return squared_radius; }
+    bool addPoint(double, std::size_t i) {
+      const int member = tree.members_[i];
+      const auto& [centers, radii] = tree.all_;
+      found = (centers[element] - centers[member]).norm() <= tree.reach_ + radii[element] + radii[member];
+      return !found;
+    }
+  };
+
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, BallTree>, BallTree, dim, int>;
+
+  const Balls<dim>& all_;
+  std::vector<int> members_;
+  double reach_;
+  double largest_radius_ = 0.;
+  Eigen::AlignedBox<double, dim> box_;
+  Tree tree_;
+};
+
+template <int dim>
+bool is_active(const Mesh<dim>& whole, const Owners& owner, int element, int rank) {
+  const int* corners = whole.corners_of(element);
+  return owner.elements[element] == rank ||
+         std::any_of(corners, corners + whole.n_corners(element), [&](int node) { return owner.nodes[node] == rank; });
+}
+
+/// The rank's own elements, then all others it needs, each ascending.
+template <int dim>
+std::vector<int> elements_of_rank(const Mesh<dim>& whole, const Owners& owner, const Balls<dim>& balls,
+                                  double halo_width, int rank) {
+  std::vector<int> active;
+  for (int e = 0; e < whole.n_elements(); ++e) {
+    if (is_active(whole, owner, e, rank)) active.push_back(e);
+  }
+  const BallTree<dim> tree(balls, active, halo_width);
+  std::vector<int> own, halo;
+  for (int e = 0, next = 0; e < whole.n_elements(); ++e) {
+    const bool active_here = next < static_cast<int>(active.size()) && active[next] == e;
+    if (active_here) ++next;
+    if (owner.elements[e] == rank) {
+      own.push_back(e);
+    } else if (active_here || (!active.empty() && tree.is_near(e))) {
+      halo.push_back(e);
+    }
+  }
+  own.insert(own.end(), halo.begin(), halo.end());
+  return own;
+}
+
+// ---- cutting a rank's part out of the whole ----
+
+/// The nodes of some elements: the rank's own, then the others, each ascending.
+template <int dim>
+std::vector<int> nodes_of_elements(const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& elements,
+                                   int rank) {
+  std::vector<int> nodes;
+  for (const int e : elements) nodes.insert(nodes.end(), whole.corners_of(e), whole.corners_of(e) + whole.n_corners(e));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::stable_partition(nodes.begin(), nodes.end(), [&](int node) { return owner.nodes[node] == rank; });
+  return nodes;
+}
+
+/// Local index of each item of the whole mesh, -1 where the rank does not have it.
+std::vector<int> local_indices(const std::vector<int>& items, int n_whole) {
+  std::vector<int> local(n_whole, -1);
+  for (std::size_t i = 0; i < items.size(); ++i) local[items[i]] = static_cast<int>(i);
+  return local;
+}
+
+std::vector<int> restricted(const std::vector<int>& nodes, const std::vector<int>& local) {
+  std::vector<int> kept;
+  for (const int node : nodes) {
+    if (local[node] >= 0) kept.push_back(local[node]);
+  }
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+std::vector<Side> restricted(const std::vector<Side>& sides_of_whole, const std::vector<int>& local) {
+  std::vector<Side> kept;
+  for (const Side& side : sides_of_whole) {
+    if (local[side.element] >= 0) kept.push_back({local[side.element], side.side});
+  }
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+template <int dim>
+void copy_nodes(Mesh<dim>& part, const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& nodes) {
+  for (const int n : nodes) {
+    part.coordinates.push_back(whole.coordinates[n]);
+    part.node_ids.push_back(whole.node_ids[n]);
+    part.node_owners.push_back(owner.nodes[n]);
+    if (owner.nodes[n] == part.rank) ++part.n_owned_nodes;
+  }
+  part.n_global_nodes = whole.n_nodes();
+}
+
+template <int dim>
+void copy_elements(Mesh<dim>& part, const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& elements,
+                   const std::vector<int>& local_node) {
+  for (const int e : elements) {
+    part.types.push_back(whole.types[e]);
+    part.blocks.push_back(whole.blocks[e]);
+    part.element_ids.push_back(whole.element_ids[e]);
+    part.element_owners.push_back(owner.elements[e]);
+    for (int c = 0; c < whole.n_corners(e); ++c) part.corners.push_back(local_node[whole.corners_of(e)[c]]);
+    part.first_corner.push_back(static_cast<int>(part.corners.size()));
+    if (owner.elements[e] == part.rank) ++part.n_owned_elements;
+  }
+  part.n_global_elements = whole.n_elements();
+}
+
+template <int dim>
+Mesh<dim> cut_out(const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& elements, int rank) {
+  const std::vector<int> nodes = nodes_of_elements(whole, owner, elements, rank);
+  const std::vector<int> local_node = local_indices(nodes, whole.n_nodes());
+  const std::vector<int> local_element = local_indices(elements, whole.n_elements());
+
+  Mesh<dim> part;
+  part.rank = rank;
+  copy_nodes(part, whole, owner, nodes);
+  copy_elements(part, whole, owner, elements, local_node);
+  part.block_names = whole.block_names;
+  for (const auto& [name, set] : whole.node_sets) part.node_sets[name] = restricted(set, local_node);
+  for (const auto& [name, set] : whole.side_sets) part.side_sets[name] = restricted(set, local_element);
+  part.boundary = restricted(whole.boundary, local_element);
+  return part;
+}
+
+template <int dim>
+void check_input(const Mesh<dim>& whole, double halo_width, const std::vector<double>& weights) {
+  PERIMORPH_ASSERT(whole.n_global_elements == whole.n_elements() && whole.n_global_nodes == whole.n_nodes(),
+                   "{} of {} elements: the mesh is not whole", whole.n_elements(), whole.n_global_elements);
+  PERIMORPH_ASSERT(std::isfinite(halo_width) && halo_width >= 0., "the halo's width is {}", halo_width);
+  PERIMORPH_ASSERT(weights.empty() || static_cast<int>(weights.size()) == whole.n_elements(),
+                   "{} weights for {} elements", weights.size(), whole.n_elements());
+}
+
+/// One message per rank.
+template <int dim>
+std::vector<std::vector<PackedWord>> packed_parts(const Mesh<dim>& whole, double halo_width,
+                                                  const std::vector<double>& weights, int n_ranks) {
+  check_input(whole, halo_width, weights);
+  const Balls<dim> balls = balls_of(whole);
+  const Owners owner = owners(whole, partition<dim>(balls.centers, weights, n_ranks));
+  std::vector<std::vector<PackedWord>> parts;
+  for (int rank = 0; rank < n_ranks; ++rank) {
+    const std::vector<int> elements = elements_of_rank(whole, owner, balls, halo_width, rank);
+    parts.push_back(pack(cut_out(whole, owner, elements, rank)));
+  }
+  return parts;
+}
+
+}  // namespace
+
+template <int dim>
+Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& whole, double halo_width,
+                     const std::vector<double>& weights) {
+  std::vector<std::vector<PackedWord>> outgoing(comm.getSize());
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() == 0) outgoing = packed_parts(whole, halo_width, weights, comm.getSize());
+  });
+  const auto incoming = base::exchange(comm, outgoing);
+
+  Mesh<dim> part;
+  base::on_all_ranks(comm, [&] { part = unpack<dim>(incoming[0]); });
+  return part;
+}
+
+template <int dim>
+std::vector<char> active_elements(const Mesh<dim>& mesh) {
+  std::vector<char> active(mesh.n_elements(), 0);
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    const int* corners = mesh.corners_of(e);
+    active[e] = e < mesh.n_owned_elements ||
+                std::any_of(corners, corners + mesh.n_corners(e), [&](int node) { return node < mesh.n_owned_nodes; });
+  }
+  return active;
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                        \
+  template Mesh<dim> distribute(const base::Comm&, const Mesh<dim>&, double, const std::vector<double>&); \
+  template std::vector<char> active_elements(const Mesh<dim>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
+
+}  // namespace perimorph::mesh

@@ -1,0 +1,54 @@
+#include "perimorph/mesh/element_type.hpp"
+
+#include <array>
+
+#include "topology.hpp"
+
+namespace perimorph::mesh {
+
+namespace {
+
+constexpr int n_types = 4;
+
+struct Properties {
+  int n_corners;
+  int dimension;
+  const char* exodus_name;
+};
+
+/// In the order of ElementType.
+constexpr std::array<Properties, n_types> properties = {
+    {{3, 2, "TRI3"}, {4, 2, "QUAD4"}, {4, 3, "TETRA4"}, {8, 3, "HEX8"}}};
+
+using Corners = std::vector<int>;
+
+std::vector<Corners> sides_of(const shards::CellTopology& element) {
+  const unsigned side_dimension = element.getDimension() - 1;
+  std::vector<Corners> all;
+  for (unsigned s = 0; s < element.getSubcellCount(side_dimension); ++s) {
+    Corners& side = all.emplace_back();
+    for (unsigned c = 0; c < element.getNodeCount(side_dimension, s); ++c) {
+      side.push_back(static_cast<int>(element.getNodeMap(side_dimension, s, c)));
+    }
+  }
+  return all;
+}
+
+std::array<std::vector<Corners>, n_types> sides_of_all_types() {
+  std::array<std::vector<Corners>, n_types> all;
+  for (int t = 0; t < n_types; ++t) all[t] = sides_of(topology(static_cast<ElementType>(t)));
+  return all;
+}
+
+}  // namespace
+
+int n_corners(ElementType type) { return properties[static_cast<int>(type)].n_corners; }
+int dimension(ElementType type) { return properties[static_cast<int>(type)].dimension; }
+std::string exodus_name(ElementType type) { return properties[static_cast<int>(type)].exodus_name; }
+
+const std::vector<std::vector<int>>& sides(ElementType type) {
+  static const auto all = sides_of_all_types();
+  return all[static_cast<int>(type)];
+}
+
+}  // namespace perimorph::mesh

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "perimorph/elements/material_points.hpp"
+
+namespace perimorph::morphing {
+
+/// How alpha falls over the rim of a zone: 1 - t, or 1 - 3t^2 + 2t^3.
+enum class Profile { linear, cubic };
+
+/// A zone where alpha = 1: all points up to inner_radius from a box (a ball if the box is one point, the seed circle
+/// r1 or the growth circle r_i of WHL19); alpha falls to 0 over the next rim (r2 - r1). Lengths, [length].
+template <int dim>
+struct Zone {
+  base::Point<dim> lower, upper;
+  double inner_radius, rim;
+
+  static Zone ball(const base::Point<dim>& center, double inner_radius, double outer_radius);
+  static Zone box(const base::Point<dim>& lower, const base::Point<dim>& upper, double rim);
+  static Zone everything();
+
+  double alpha(const base::Point<dim>& x, Profile profile) const;
+};
+
+/// FE: alpha = 0 in the whole neighbourhood; PD: alpha = 1 there; MORPH: all else [WHL19, eq. 18].
+enum class ElementClass : signed char { fe = 0, morph = 1, pd = 2 };
+
+/// The morphing function alpha at the material points: the maximum over all zones [WHL19, eq. 23]. It never falls.
+template <int dim>
+class MorphingField {
+ public:
+  /// Local; points must outlive this.
+  MorphingField(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, Profile profile);
+
+  /// Adds zones; returns the local elements where alpha rose, ascending. Local (zones alike on all ranks).
+  std::vector<int> add(const std::vector<Zone<dim>>& zones);
+
+  double operator()(int point) const { return alpha_[point]; }
+
+  /// Whether alpha > 0 at any point of the element: then it carries bonds.
+  bool carries_bonds(int element) const { return carries_bonds_[element]; }
+
+ private:
+  const mesh::Mesh<dim>& mesh_;
+  const elements::MaterialPoints<dim>& points_;
+  Profile profile_;
+  std::vector<double> alpha_;
+  std::vector<char> carries_bonds_;
+};
+
+}  // namespace perimorph::morphing

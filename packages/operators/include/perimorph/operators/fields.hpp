@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "perimorph/operators/coupled_model.hpp"
+
+namespace perimorph::operators {
+
+/// Element averages for output, one entry per owned element.
+template <int dim>
+struct ElementFields {
+  std::vector<double> energy;               ///< strain energy in the element: local + half of each of its bonds', [energy]
+  std::vector<base::Voigt<dim>> stress;     ///< E(x) eps + 1/2 Sum k (xi . eta) xi (x) xi / w, [stress]
+};
+
+/// @param u on all local degrees of freedom; @param at_points B u (displacements_at_points). Local.
+template <int dim>
+ElementFields<dim> element_fields(const CoupledModel<dim>& model, const double* u,
+                                  const std::vector<base::Point<dim>>& at_points);
+
+/// Energy stored in bonds just before they break, counted by the rank that owns a bond's first element:
+/// Sum 1/2 k (xi . eta)^2, [energy]. Local.
+template <int dim>
+double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t>& bonds,
+                   const std::vector<base::Point<dim>>& at_points);
+
+}  // namespace perimorph::operators

@@ -1,0 +1,244 @@
+#include "perimorph/operators/coupled_stiffness.hpp"
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "perimorph/elements/strain.hpp"
+
+namespace perimorph::operators {
+
+template <int dim>
+CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const discretization::Dirichlet<dim>& dirichlet,
+                                        const std::vector<char>& discontinuous)
+    : model_(model) {
+  for (int n = 0; n < model.dofs.n_nodes(); ++n) {
+    for (int c = 0; c < dim; ++c) fixed_.push_back(dirichlet.prescribes(model.dofs.reference_node(n), c));
+  }
+  find_pattern();
+  make_matrix();
+  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+    if (model.bonds.is_active(e) && !model.elasticity.is_zero(e)) add_element(e);
+  }
+  add_springs();
+  add_anchors(discontinuous);
+}
+
+/// A node is coupled to all nodes of its elements and of the elements that these have bonds with.
+template <int dim>
+void CoupledStiffness<dim>::find_pattern() {
+  const auto& mesh = model_.mesh;
+  const auto& dofs = model_.dofs;
+  std::vector<std::vector<int>> elements_of(dofs.n_owned_nodes());
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    for (int k = 0; k < mesh.n_corners(e); ++k) {
+      const int node = dofs.nodes_of(e)[k];
+      if (node < dofs.n_owned_nodes()) elements_of[node].push_back(e);
+    }
+  }
+  std::vector<int> seen_by(dofs.n_nodes(), -1);
+  first_.push_back(0);
+  for (int row = 0; row < dofs.n_owned_nodes(); ++row) {
+    const auto include = [&](int element) {
+      for (int k = 0; k < mesh.n_corners(element); ++k) {
+        const int node = dofs.nodes_of(element)[k];
+        if (seen_by[node] == row) continue;
+        seen_by[node] = row;
+        columns_.push_back(node);
+      }
+    };
+    for (const int e : elements_of[row]) {
+      include(e);
+      for (const int p : model_.bonds.pairs_of(e)) {
+        const auto [first, second] = model_.bonds.pair(p);
+        include(first == e ? second : first);
+      }
+    }
+    std::sort(columns_.begin() + static_cast<std::ptrdiff_t>(first_.back()), columns_.end());
+    first_.push_back(columns_.size());
+  }
+}
+
+template <int dim>
+void CoupledStiffness<dim>::make_matrix() {
+  using Local = typename Matrix::local_matrix_device_type;
+  const std::size_t n_rows = static_cast<std::size_t>(model_.dofs.n_owned_nodes()) * dim;
+  const std::size_t n_entries = columns_.size() * dim * dim;
+  typename Local::row_map_type::non_const_type row_starts("row starts", n_rows + 1);
+  typename Local::index_type entries("columns", n_entries);
+  typename Local::values_type values("values", n_entries);
+
+  std::size_t position = 0;
+  for (int row = 0; row < model_.dofs.n_owned_nodes(); ++row) {
+    diagonal_.push_back(std::lower_bound(columns_.begin() + static_cast<std::ptrdiff_t>(first_[row]),
+                                         columns_.begin() + static_cast<std::ptrdiff_t>(first_[row + 1]), row) -
+                        columns_.begin());
+    for (int c = 0; c < dim; ++c) {
+      row_starts(row * dim + c) = position;
+      for (std::size_t block = first_[row]; block < first_[row + 1]; ++block) {
+        for (int d = 0; d < dim; ++d) entries(position++) = columns_[block] * dim + d;
+      }
+    }
+  }
+  row_starts(n_rows) = position;
+
+  const auto& dofs = model_.dofs;
+  matrix_ = Teuchos::rcp(new Matrix(dofs.owned_dofs(), dofs.all_dofs(), row_starts, entries, values));
+  matrix_->expertStaticFillComplete(dofs.owned_dofs(), dofs.owned_dofs(), dofs.import());
+  values_ = matrix_->getLocalMatrixHost().values.data();
+}
+
+template <int dim>
+void CoupledStiffness<dim>::add_block(int row, int column, const Block& block) {
+  const int* begin = columns_.data() + first_[row];
+  const int* end = columns_.data() + first_[row + 1];
+  const std::size_t width = static_cast<std::size_t>(end - begin) * dim;
+  double* target = values_ + first_[row] * dim * dim + static_cast<std::size_t>(std::lower_bound(begin, end, column) - begin) * dim;
+  for (int c = 0; c < dim; ++c) {
+    for (int d = 0; d < dim; ++d) {
+      const bool eliminated = fixed_[row * dim + c] || fixed_[column * dim + d];
+      if (!eliminated || (row == column && c == d)) target[c * width + d] += block(c, d);
+    }
+  }
+}
+
+template <int dim>
+void CoupledStiffness<dim>::add_element(int element) {
+  elements::with_corners<dim>(model_.mesh.n_corners(element), [&](auto corners) {
+    constexpr int n = decltype(corners)::value;
+    Eigen::Matrix<double, dim * n, dim * n> k = Eigen::Matrix<double, dim * n, dim * n>::Zero();
+    for (int q = 0; q < model_.points.count(element); ++q) {
+      const auto b = elements::strain_matrix<dim, n>(model_.points.gradients(element, q));
+      const base::Stiffness<dim> e = model_.points.weight(model_.points.first(element) + q) * model_.elasticity.at(element, q);
+      k.noalias() += b.transpose() * (e * b);
+    }
+    const int* nodes = model_.dofs.nodes_of(element);
+    for (int i = 0; i < n; ++i) {
+      if (nodes[i] >= model_.dofs.n_owned_nodes()) continue;
+      for (int j = 0; j < n; ++j) add_block(nodes[i], nodes[j], k.template block<dim, dim>(i * dim, j * dim));
+    }
+  });
+}
+
+/// Adds the springs at an element's points, (n_points) blocks: K += N^T diag(at_points) N.
+template <int dim>
+void CoupledStiffness<dim>::add_at_points(int element, const Block* at_points) {
+  const int* nodes = model_.dofs.nodes_of(element);
+  for (int k = 0; k < model_.mesh.n_corners(element); ++k) {
+    if (nodes[k] >= model_.dofs.n_owned_nodes()) continue;
+    for (int l = 0; l < model_.mesh.n_corners(element); ++l) {
+      Block block = Block::Zero();
+      for (int q = 0; q < model_.points.count(element); ++q) {
+        const auto& shape = model_.points.shape(element, q);
+        block += shape[k] * shape[l] * at_points[q];
+      }
+      add_block(nodes[k], nodes[l], block);
+    }
+  }
+}
+
+/// Subtracts the springs between the points of two elements, (n_points, n_points) blocks: K -= N_a^T between N_b, and
+/// its transpose.
+template <int dim>
+void CoupledStiffness<dim>::add_between(const bonds::ElementPair& pair, const std::vector<Block>& between) {
+  const auto [a, b] = pair;
+  const int* nodes_a = model_.dofs.nodes_of(a);
+  const int* nodes_b = model_.dofs.nodes_of(b);
+  const int n_qa = model_.points.count(a), n_qb = model_.points.count(b);
+  for (int l = 0; l < model_.mesh.n_corners(b); ++l) {
+    std::array<Block, elements::max_points> half;  // between N_b, for corner l
+    for (int qa = 0; qa < n_qa; ++qa) {
+      half[qa].setZero();
+      for (int qb = 0; qb < n_qb; ++qb) half[qa] += model_.points.shape(b, qb)[l] * between[qa * n_qb + qb];
+    }
+    for (int k = 0; k < model_.mesh.n_corners(a); ++k) {
+      Block block = Block::Zero();
+      for (int qa = 0; qa < n_qa; ++qa) block -= model_.points.shape(a, qa)[k] * half[qa];
+      if (nodes_a[k] < model_.dofs.n_owned_nodes()) add_block(nodes_a[k], nodes_b[l], block);
+      if (nodes_b[l] < model_.dofs.n_owned_nodes()) add_block(nodes_b[l], nodes_a[k], block.transpose());
+    }
+  }
+}
+
+/// K += Sum_bonds k [N_b - N_a]^T (xi (x) xi) [N_b - N_a]   [WHL19, eq. 22], pair by pair of elements.
+template <int dim>
+void CoupledStiffness<dim>::add_springs() {
+  std::vector<Block> at_points(model_.points.size(), Block::Zero());
+  std::vector<Block> between;
+  for (int p = 0; p < model_.bonds.n_pairs(); ++p) {
+    const auto& pair = model_.bonds.pair(p);
+    const int first_a = model_.points.first(pair.first), first_b = model_.points.first(pair.second);
+    const int n_qb = model_.points.count(pair.second);
+    between.assign(model_.points.count(pair.first) * n_qb, Block::Zero());
+    for (auto b = model_.bonds.first_bond(p); b < model_.bonds.first_bond(p + 1); ++b) {
+      if (model_.bonds.broken(b)) continue;
+      const int i = first_a + model_.bonds.first_end(b), j = first_b + model_.bonds.second_end(b);
+      const Block spring = spring_block(b, i, j);
+      between[model_.bonds.first_end(b) * n_qb + model_.bonds.second_end(b)] = spring;
+      at_points[i] += spring;
+      at_points[j] += spring;
+    }
+    add_between(pair, between);
+  }
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+    if (model_.bonds.is_active(e) && !model_.bonds.pairs_of(e).empty()) {
+      add_at_points(e, at_points.data() + model_.points.first(e));
+    }
+  }
+}
+
+template <int dim>
+void CoupledStiffness<dim>::subtract(const std::vector<std::size_t>& broken) {
+  std::array<Block, elements::max_points> at_a, at_b;
+  std::vector<Block> between;
+  for (std::size_t next = 0; next < broken.size();) {
+    const int p = model_.bonds.pair_of(broken[next]);
+    const auto& pair = model_.bonds.pair(p);
+    const int first_a = model_.points.first(pair.first), first_b = model_.points.first(pair.second);
+    const int n_qa = model_.points.count(pair.first), n_qb = model_.points.count(pair.second);
+    between.assign(n_qa * n_qb, Block::Zero());
+    std::fill_n(at_a.begin(), n_qa, Block::Zero());
+    std::fill_n(at_b.begin(), n_qb, Block::Zero());
+    for (; next < broken.size() && broken[next] < model_.bonds.first_bond(p + 1); ++next) {
+      const int qa = model_.bonds.first_end(broken[next]), qb = model_.bonds.second_end(broken[next]);
+      const Block spring = spring_block(broken[next], first_a + qa, first_b + qb);
+      between[qa * n_qb + qb] = -spring;
+      at_a[qa] -= spring;
+      at_b[qb] -= spring;
+    }
+    add_between(pair, between);
+    add_at_points(pair.first, at_a.data());
+    add_at_points(pair.second, at_b.data());
+  }
+}
+
+template <int dim>
+typename CoupledStiffness<dim>::Block CoupledStiffness<dim>::spring_block(std::size_t bond, int i, int j) const {
+  const base::Point<dim> xi = model_.points.position(j) - model_.points.position(i);
+  return model_.spring(bond, i, j) * xi * xi.transpose();
+}
+
+template <int dim>
+void CoupledStiffness<dim>::add_anchors(const std::vector<char>& discontinuous) {
+  std::vector<char> anchored(model_.dofs.n_owned_nodes(), 0);
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+    if (!discontinuous[e]) continue;
+    for (int k = 0; k < model_.mesh.n_corners(e); ++k) {
+      const int node = model_.dofs.nodes_of(e)[k];
+      if (node < model_.dofs.n_owned_nodes()) anchored[node] = 1;
+    }
+  }
+  for (int row = 0; row < model_.dofs.n_owned_nodes(); ++row) {
+    if (!anchored[row]) continue;
+    const std::size_t width = (first_[row + 1] - first_[row]) * dim;
+    for (int c = 0; c < dim; ++c) {
+      values_[first_[row] * dim * dim + c * width + (diagonal_[row] - first_[row]) * dim + c] *= 1. + anchor;
+    }
+  }
+}
+
+template class CoupledStiffness<2>;
+template class CoupledStiffness<3>;
+
+}  // namespace perimorph::operators

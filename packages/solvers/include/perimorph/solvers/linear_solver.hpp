@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <memory>
+
+#include "perimorph/base/profile.hpp"
+#include "perimorph/solvers/multigrid.hpp"
+
+namespace perimorph::solvers {
+
+struct SolverParameters {
+  int max_iterations = 500;
+  double rebuild_growth = 1.5;  ///< the preconditioner is renewed when iterations exceed this times those after set-up
+  Teuchos::ParameterList belos, muelu;  ///< overrides
+};
+
+/// Conjugate gradients (Belos) with multigrid, for a matrix whose values change a little between many solves. The
+/// preconditioner is kept as long as it serves: then refreshed, then rebuilt.
+class LinearSolver {
+ public:
+  LinearSolver(SolverParameters parameters, base::Profile& profile) : parameters_(std::move(parameters)), profile_(profile) {}
+
+  /// A new matrix: the preconditioner is rebuilt before the next solve. Local.
+  void set_matrix(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space);
+
+  /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Returns the iterations. Collective.
+  /// If the iteration breaks down or does not converge, it is tried again once with a safer, rebuilt preconditioner.
+  /// @throws ComputationError if that fails too.
+  int solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
+
+ private:
+  enum class Condition { missing, aged, good };
+  using Dropping = Multigrid::Dropping;
+
+  SolverParameters parameters_;
+  base::Profile& profile_;
+  Teuchos::RCP<Matrix> matrix_;
+  NearNullSpace near_null_space_;
+  std::unique_ptr<Multigrid> multigrid_;
+  Condition condition_ = Condition::missing;
+  bool refreshed_ = false;  ///< since the last rebuild
+  Dropping dropping_ = Dropping::weak_couplings;
+
+  void prepare();
+  struct Outcome {
+    bool converged;
+    int iterations;
+    std::string trouble;
+  };
+  Outcome iterate(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
+  double fresh_rate_ = 0.;  ///< iterations per decade of reduction with the preconditioner as built
+  void judge(int iterations, double relative_tolerance);
+};
+
+}  // namespace perimorph::solvers

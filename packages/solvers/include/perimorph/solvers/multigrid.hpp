@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <Tpetra_CrsMatrix_fwd.hpp>
+#include <Tpetra_MultiVector_fwd.hpp>
+#include <Tpetra_Operator_fwd.hpp>
+#include <memory>
+#include <vector>
+
+#include "perimorph/base/algebra.hpp"
+
+namespace perimorph::solvers {
+
+using Matrix = Tpetra::CrsMatrix<double>;
+using MultiVector = Tpetra::MultiVector<double>;
+using Operator = Tpetra::Operator<double>;
+
+/// Rigid-body modes of the owned degrees of freedom: dim translations and the rotations (3 modes in 2D, 6 in 3D), and
+/// the nodes' coordinates, as MueLu wants them. @param coordinates of the owned nodes, [length]
+struct NearNullSpace {
+  Teuchos::RCP<MultiVector> modes, coordinates;
+};
+template <int dim>
+NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Point<dim>>& coordinates);
+
+/// Smoothed-aggregation multigrid (MueLu) for elasticity: Chebyshev smoothing, dropping of weak couplings, symmetric
+/// Gauss-Seidel on the coarsest level (KLU2 is wrong on more than one rank). Made for one matrix pattern.
+class Multigrid {
+ public:
+  /// Which couplings aggregates follow; none dropped is slower and safer.
+  enum class Dropping { weak_couplings, none };
+
+  /// Sets it up. @param overrides parameters of MueLu that replace or add to ours. Collective.
+  Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space,
+            const Teuchos::ParameterList& overrides, Dropping dropping);
+  ~Multigrid();
+
+  /// New values in the same matrix: keeps aggregates and prolongators ("RP" reuse), renews the rest. Collective.
+  void refresh();
+
+  const Teuchos::RCP<Operator>& apply_inverse() const { return operator_; }
+
+ private:
+  struct Hierarchy;
+  std::unique_ptr<Hierarchy> hierarchy_;
+  Teuchos::RCP<Operator> operator_;
+};
+
+}  // namespace perimorph::solvers

@@ -1,0 +1,99 @@
+#include "perimorph/solvers/linear_solver.hpp"
+
+#include <BelosLinearProblem.hpp>
+#include <BelosPseudoBlockCGSolMgr.hpp>
+#include <BelosTpetraAdapter.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <cmath>
+
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::solvers {
+
+void LinearSolver::set_matrix(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space) {
+  matrix_ = matrix;
+  near_null_space_ = near_null_space;
+  multigrid_.reset();
+  condition_ = Condition::missing;
+  dropping_ = Dropping::weak_couplings;
+}
+
+int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solution, double target) {
+  Teuchos::Array<double> norm(1);
+  right_hand_side.norm2(norm());
+  solution.putScalar(0.);
+  if (norm[0] <= target) return 0;
+  if (!std::isfinite(norm[0])) throw base::ComputationError("the residual is not a finite number");
+
+  const double relative_tolerance = target / norm[0];
+  prepare();
+  Outcome outcome = iterate(right_hand_side, solution, relative_tolerance);
+  if (!outcome.converged) {
+    condition_ = Condition::missing;
+    dropping_ = Dropping::none;
+    prepare();
+    solution.putScalar(0.);
+    outcome = iterate(right_hand_side, solution, relative_tolerance);
+  }
+  if (!outcome.converged) {
+    throw base::ComputationError(fmt::format(
+        "conjugate gradients did not reduce the residual by {:.1e} within {} iterations, with a fresh preconditioner{}{}",
+        relative_tolerance, outcome.iterations, outcome.trouble.empty() ? "" : ": ", outcome.trouble));
+  }
+  judge(outcome.iterations, relative_tolerance);
+  return outcome.iterations;
+}
+
+void LinearSolver::prepare() {
+  if (condition_ == Condition::good) return;
+  const auto timer = profile_.measure(base::Phase::preconditioner);
+  const bool refresh = condition_ == Condition::aged && !refreshed_;
+  try {
+    if (refresh) {
+      multigrid_->refresh();
+    } else {
+      multigrid_ = std::make_unique<Multigrid>(matrix_, near_null_space_, parameters_.muelu, dropping_);
+      fresh_rate_ = 0.;
+    }
+  } catch (const std::exception& error) {
+    throw base::ComputationError(fmt::format("the multigrid preconditioner could not be set up: {}", error.what()));
+  }
+  refreshed_ = refresh;
+  condition_ = Condition::good;
+}
+
+LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, MultiVector& solution,
+                                            double relative_tolerance) {
+  using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
+  const auto timer = profile_.measure(base::Phase::cg);
+  const auto problem = Teuchos::rcp(new Problem(matrix_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
+  problem->setLeftPrec(multigrid_->apply_inverse());
+  problem->setProblem();
+
+  const auto list = Teuchos::parameterList("Belos");
+  list->set("Verbosity", static_cast<int>(Belos::Errors));
+  list->setParameters(parameters_.belos);
+  list->set("Maximum Iterations", parameters_.max_iterations);
+  list->set("Convergence Tolerance", relative_tolerance);
+  try {
+    Belos::PseudoBlockCGSolMgr<double, MultiVector, Operator> solver(problem, list);
+    const bool converged = solver.solve() == Belos::Converged;
+    return {converged, solver.getNumIters(), ""};
+  } catch (const std::exception& error) {  // "non-positive value for p^H*A*p", not a number
+    return {false, 0, error.what()};
+  }
+}
+
+/// Iterations per decade, compared with those just after the last set-up, tell when the preconditioner has aged.
+void LinearSolver::judge(int iterations, double relative_tolerance) {
+  const double decades = -std::log10(relative_tolerance);
+  if (decades < 1.) return;  // too little to judge by
+  const double rate = iterations / decades;
+  if (fresh_rate_ == 0.) {
+    fresh_rate_ = rate;
+  } else if (rate > parameters_.rebuild_growth * fresh_rate_ && iterations > 5) {
+    condition_ = Condition::aged;
+  }
+}
+
+}  // namespace perimorph::solvers

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/fracture/case.hpp"
+
+// A valid case. The tests replace a piece of it, and count lines from its first.
+inline const std::string valid = R"xml(<ParameterList name="plate">
+  <ParameterList name="Mesh">
+    <Parameter name="File" type="string" value="plate.geo"/>
+  </ParameterList>
+  <ParameterList name="Material">
+    <Parameter name="Young's Modulus" type="double" value="30000"/>
+    <Parameter name="Poisson's Ratio" type="double" value="0.3333"/>
+    <Parameter name="Elastic Model" type="string" value="Plane Stress"/>
+    <Parameter name="Critical Stretch" type="double" value="0.05"/>
+  </ParameterList>
+  <ParameterList name="Peridynamics">
+    <Parameter name="Horizon" type="double" value="1.5"/>
+    <Parameter name="Characteristic Length" type="double" value="0.1"/>
+  </ParameterList>
+  <ParameterList name="Morphing">
+    <ParameterList name="Seeds">
+      <ParameterList name="tip">
+        <Parameter name="Center" type="Array(double)" value="{100, 10}"/>
+        <Parameter name="Inner Radius" type="double" value="4"/>
+        <Parameter name="Outer Radius" type="double" value="6"/>
+      </ParameterList>
+      <ParameterList name="bar">
+        <Parameter name="Shape" type="string" value="Box"/>
+        <Parameter name="Lower Corner" type="Array(double)" value="{0, 0}"/>
+        <Parameter name="Upper Corner" type="Array(double)" value="{5, 1}"/>
+        <Parameter name="Rim" type="double" value="2"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Pre-Cracks">
+    <ParameterList name="slit">
+      <Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Boundary Conditions">
+    <ParameterList name="Displacements">
+      <ParameterList name="hold">
+        <Parameter name="Group" type="string" value="left"/>
+        <Parameter name="Component" type="string" value="x"/>
+      </ParameterList>
+      <ParameterList name="pull">
+        <Parameter name="Group" type="string" value="right"/>
+        <Parameter name="Component" type="string" value="x"/>
+        <Parameter name="Rate" type="double" value="-0.02"/>
+      </ParameterList>
+    </ParameterList>
+    <ParameterList name="Tractions">
+      <ParameterList name="wind">
+        <Parameter name="Group" type="string" value="top"/>
+        <Parameter name="Rate" type="Array(double)" value="{0, -1}"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Loading">
+    <Parameter name="Increments" type="int" value="100"/>
+  </ParameterList>
+  <ParameterList name="Solver">
+    <ParameterList name="MueLu">
+      <Parameter name="coarse: max size" type="int" value="50"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Output">
+    <Parameter name="Reactions" type="Array(string)" value="{left, right}"/>
+  </ParameterList>
+</ParameterList>
+)xml";
+
+/// A piece of it that most tests of numbers replace.
+inline const std::string horizon = R"xml(name="Horizon" type="double" value="1.5")xml";
+
+inline std::string replaced(std::string text, const std::string& piece, const std::string& by) {
+  const auto at = text.find(piece);
+  EXPECT_NE(at, std::string::npos) << "the valid case has no " << piece;
+  return at == std::string::npos ? text : text.replace(at, piece.size(), by);
+}
+
+/// A folder of its own for each test, with the case as plate.xml.
+class CaseFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "perimorph-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file() const { return folder_ / "plate.xml"; }
+
+  perimorph::fracture::Case read(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    std::ofstream(file(), std::ios::binary) << text;
+    return perimorph::fracture::read_case(file(), overrides);
+  }
+
+  std::string error_of_file(const std::string& path, const std::vector<std::string>& overrides = {}) const {
+    try {
+      perimorph::fracture::read_case(path, overrides);
+    } catch (const perimorph::base::UserError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  std::string error(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    std::ofstream(file(), std::ios::binary) << text;
+    return error_of_file(file(), overrides);
+  }
+
+  std::filesystem::path folder_;
+};

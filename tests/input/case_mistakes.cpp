@@ -1,0 +1,320 @@
+// What the program says to a mistake in the case file: each line of text that a user can meet, by its words.
+
+#include <algorithm>
+
+#include "case_fixture.hpp"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// --- one mistake: a piece of the valid case, what it becomes, what is said ---
+
+struct Mistake {
+  const char* name;
+  std::string piece, by, text;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+class OneMistake : public CaseFile, public testing::WithParamInterface<Mistake> {};
+
+TEST_P(OneMistake, IsNamedWithFileLineAndPath) {
+  const std::string message = error(replaced(valid, GetParam().piece, GetParam().by));
+
+  EXPECT_THAT(message, StartsWith("1 mistake in " + file() + "\n" + file() + ":"));
+  EXPECT_THAT(message, HasSubstr(GetParam().text));
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+}
+
+std::string named(const testing::TestParamInfo<Mistake>& info) { return info.param.name; }
+
+const std::string increments = R"xml(name="Increments" type="int" value="100")xml";
+const std::string tip = R"xml(<Parameter name="Center" type="Array(double)" value="{100, 10}"/>)xml";
+const std::string box = R"xml(<Parameter name="Shape" type="string" value="Box"/>)xml";
+const std::string solver = R"xml(<ParameterList name="Solver">)xml";
+const std::string elastic_model = R"xml(name="Elastic Model" type="string" value="Plane Stress")xml";
+
+INSTANTIATE_TEST_SUITE_P(
+    Names, OneMistake,
+    testing::Values(
+        Mistake{"UnknownParameter", solver,
+                solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
+                R"xml(:57: /Solver/Tolerence: unknown parameter; allowed are "Operator", "Tolerance", )xml"},
+        Mistake{"NearestParameter", solver,
+                solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
+                R"xml( - did you mean "Tolerance"?)xml"},
+        Mistake{"UnknownAtTheTop", solver, R"xml(<Parameter name="Titel" type="string" value=""/>)xml" + solver,
+                R"xml(:57: /Titel: unknown parameter; allowed are "Title", "Dimension", )xml"},
+        Mistake{"UnknownInAnEntry", tip, tip + R"xml(<Parameter name="Radius" type="double" value="1"/>)xml",
+                R"xml(:18: /Morphing/Seeds/tip/Radius: unknown parameter; allowed are "Shape", )xml"},
+        Mistake{"UnknownSection", solver, R"xml(<ParameterList name="Solvers"/>)xml" + solver,
+                R"xml(:57: /Solvers: unknown section; allowed are "Title", )xml"},
+        Mistake{"NearestSection", solver, R"xml(<ParameterList name="Solvers"/>)xml" + solver,
+                R"xml( - did you mean "Solver"?)xml"},
+        Mistake{"ListForAParameter", solver, R"xml(<ParameterList name="Title"/>)xml" + solver,
+                ":57: /Title: found a <ParameterList>; allowed is a <Parameter>"},
+        Mistake{"ParameterForAList", solver, R"xml(<Parameter name="Solver" type="string" value="CG"/>)xml" + solver,
+                ":57: /Solver: found a <Parameter>; allowed is a <ParameterList>"},
+        Mistake{
+            "ParameterAmongEntries", R"xml(<ParameterList name="tip">)xml",
+            R"xml(<Parameter name="Rim" type="double" value="1"/><ParameterList name="tip">)xml",
+            ":17: /Morphing/Seeds/Rim: found a <Parameter>; allowed are only lists of parameters, with names of your "
+            "choice"},
+        Mistake{"EntryWithASlash", R"xml(<ParameterList name="tip">)xml", R"xml(<ParameterList name="tip/1">)xml",
+                R"xml(/Morphing/Seeds/tip/1: found a name with "/", "=" or "*"; allowed are names without these)xml"},
+        Mistake{"ParameterTwice", "<Parameter " + increments + "/>",
+                "<Parameter " + increments + "/>\n<Parameter " + increments + "/>",
+                ":56: /Loading/Increments: given twice; allowed is once"},
+        Mistake{"SectionTwice", solver, R"xml(<ParameterList name="Mesh"/>)xml" + solver, ":57: /Mesh: given twice"},
+        Mistake{"EntryTwice", R"xml(<ParameterList name="bar">)xml", R"xml(<ParameterList name="tip">)xml",
+                ":22: /Morphing/Seeds/tip: given twice; allowed is once"},
+        Mistake{"FreeParameterTwice", R"xml(<ParameterList name="MueLu">)xml",
+                R"xml(<ParameterList name="MueLu"><Parameter name="coarse: max size" type="int" value="1"/>)xml",
+                ":59: /Solver/MueLu/coarse: max size: given twice"}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Missing, OneMistake,
+    testing::Values(Mistake{"Parameter", "<Parameter " + horizon + "/>", "",
+                            ":11: /Peridynamics/Horizon: missing; needed is a number > 0"},
+                    Mistake{
+                        "ParameterOfAnEntry", R"xml(<Parameter name="Group" type="string" value="left"/>)xml", "",
+                        ":37: /Boundary Conditions/Displacements/hold/Group: missing; needed is the name of a group"},
+                    Mistake{"Component", R"xml(<Parameter name="Component" type="string" value="x"/>)xml", "",
+                            R"xml(/hold/Component: missing; needed is "x" or "y" or "z")xml"},
+                    Mistake{"Section", "<Parameter " + increments + "/>", "",
+                            ":54: /Loading/Increments: missing; needed is a whole number >= 1"},
+                    Mistake{"Points", R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml",
+                            "", ":31: /Pre-Cracks/slit/Points: missing; needed is {x1, y1, x2, y2, ...}"}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Types, OneMistake,
+    testing::Values(
+        Mistake{"IntForDouble", horizon, R"xml(name="Horizon" type="int" value="2")xml",
+                R"xml(:12: /Peridynamics/Horizon: found type="int"; write type="double")xml"},
+        Mistake{"DoubleForInt", increments, R"xml(name="Increments" type="double" value="2")xml",
+                R"xml(:55: /Loading/Increments: found type="double"; write type="int")xml"},
+        Mistake{"ScalarForArray", R"xml(type="Array(double)" value="{100, 10}")xml",
+                R"xml(type="double" value="100")xml",
+                R"xml(/Morphing/Seeds/tip/Center: found type="double"; write type="Array(double)")xml"},
+        Mistake{"None", horizon, R"xml(name="Horizon" value="2")xml",
+                R"xml(/Peridynamics/Horizon: found no type; write type="double")xml"},
+        Mistake{"NoneInAFreeList", R"xml(name="coarse: max size" type="int")xml", R"xml(name="coarse: max size")xml",
+                R"xml(:59: /Solver/MueLu/coarse: max size: found no type; allowed are "int", "double", "bool", )xml"},
+        Mistake{"UnknownInAFreeList", R"xml(name="coarse: max size" type="int")xml",
+                R"xml(name="coarse: max size" type="integer")xml",
+                R"xml(found type="integer"; allowed are "int", "double", "bool", "string", "Array(int)", )xml"},
+        Mistake{"NoValue", horizon, R"xml(name="Horizon" type="double")xml",
+                R"xml(/Peridynamics/Horizon: found no value; write value="..." with a number > 0)xml"}),
+    named);
+
+Mistake number(const char* name, const std::string& value) {
+  return {name, horizon, "name=\"Horizon\" type=\"double\" value=\"" + value + "\"",
+          ":12: /Peridynamics/Horizon: found \"" + value +
+              "\", which is not a number such as 1.5 or 2e-3; allowed is a number > 0"};
+}
+
+Mistake whole_number(const char* name, const std::string& value) {
+  return {name, increments, "name=\"Increments\" type=\"int\" value=\"" + value + "\"",
+          ":55: /Loading/Increments: found \"" + value +
+              "\", which is not a whole number such as 12; allowed is a whole number >= 1"};
+}
+
+Mistake array(const char* name, const std::string& value) {
+  return {name, R"xml(value="{100, 10}")xml", "value=\"" + value + "\"",
+          ":18: /Morphing/Seeds/tip/Center: found \"" + value + "\", which is not numbers such as {1.5, 2e-3}; "};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Literals, OneMistake,
+    testing::Values(number("Letters", "abc"), number("CommaForPoint", "1,5"), number("Unit", "1e-3 mm"),
+                    number("NotANumber", "nan"), number("Infinite", "inf"), number("Empty", ""),
+                    number("TooLarge", "1e999"), number("Hexadecimal", "0x10"), number("TwoSigns", "+-1"),
+                    whole_number("ExponentInInt", "1e3"), whole_number("PointInInt", "2.7"),
+                    whole_number("EmptyInt", ""), whole_number("TooLargeInt", "99999999999"),
+                    array("NoBraces", "100, 10"), array("OpenBrace", "{100, 10"), array("EmptyItem", "{100, , 10}"),
+                    array("EndingComma", "{100, 10,}"), array("LettersInArray", "{a, b}"), array("Nested", "{{1}, 2}"),
+                    Mistake{"Boolean", R"xml(type="int" value="50")xml", R"xml(type="bool" value="yes")xml",
+                            ":59: /Solver/MueLu/coarse: max size: found \"yes\", which is not true or false"}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Ranges, OneMistake,
+    testing::Values(
+        Mistake{"Zero", horizon, R"xml(name="Horizon" type="double" value="0")xml",
+                R"xml(:12: /Peridynamics/Horizon: found "0"; allowed is a number > 0)xml"},
+        Mistake{"Modulus", R"xml(value="30000")xml", R"xml(value="-1")xml",
+                R"xml(/Material/Young's Modulus: found "-1"; allowed is a)xml"},
+        Mistake{"NoIncrements", R"xml(value="100")xml", R"xml(value="0")xml",
+                R"xml(found "0"; allowed is a whole number >= 1)xml"},
+        Mistake{"Tolerance", solver, solver + R"xml(<Parameter name="Tolerance" type="double" value="1"/>)xml",
+                R"xml(/Solver/Tolerance: found "1"; allowed is a number > 0 and < 1)xml"},
+        Mistake{"RebuildGrowth", solver,
+                solver + R"xml(<Parameter name="Rebuild Growth" type="double" value="0.9"/>)xml",
+                R"xml(/Solver/Rebuild Growth: found "0.9"; allowed is a number >= 1)xml"},
+        Mistake{"ThreeDimensions", R"xml(  <ParameterList name="Mesh">)xml",
+                R"xml(<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">)xml",
+                R"xml(:2: /Dimension: found "3"; allowed is 2: three dimensions are not built yet)xml"},
+        Mistake{"MeshFile", "plate.geo", "plate.stl",
+                R"xml(:3: /Mesh/File: found "plate.stl"; allowed is the name of a .geo or .msh file)xml"},
+        Mistake{"EmptyGroup", R"xml(value="left"/>)xml", R"xml(value=""/>)xml",
+                R"xml(/Displacements/hold/Group: found ""; allowed is the name of a group)xml"},
+        Mistake{"Choice", elastic_model, R"xml(name="Elastic Model" type="string" value="plane stres")xml",
+                R"xml(:8: /Material/Elastic Model: found "plane stres"; allowed is "Plane Stress" or "Plane Strain")xml"
+                R"xml( - did you mean "Plane Stress"?)xml"},
+        Mistake{"ModelOfThreeDimensions", elastic_model,
+                R"xml(name="Elastic Model" type="string" value="Three-Dimensional")xml",
+                R"xml(found "Three-Dimensional"; allowed is "Plane Stress" or "Plane Strain")xml"},
+        Mistake{"Micromodulus", "<Parameter " + horizon,
+                R"xml(<Parameter name="Micromodulus" type="string" value="Constant"/><Parameter )xml" + horizon,
+                R"xml(/Peridynamics/Micromodulus: found "Constant"; allowed is "Exponential")xml"},
+        Mistake{"Operator", solver, solver + R"xml(<Parameter name="Operator" type="string" value="Matrix-Free"/>)xml",
+                R"xml(/Solver/Operator: found "Matrix-Free"; allowed is "CRS")xml"}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Together, OneMistake,
+    testing::Values(
+        Mistake{"PoissonInPlaneStress", R"xml(value="0.3333")xml", R"xml(value="0.3")xml",
+                ":7: /Material/Poisson's Ratio: found 0.3; allowed is 0.3333 (1/3) for \"Plane Stress\": bond-based "
+                "peridynamics, with central forces between pairs of points, has this one ratio"},
+        Mistake{"PoissonInPlaneStrain", "Plane Stress", "Plane Strain",
+                R"xml(found 0.3333; allowed is 0.25 (1/4) for "Plane Strain")xml"},
+        Mistake{
+            "StretchAndEnergy", R"xml(<Parameter name="Critical Stretch")xml",
+            R"xml(<Parameter name="Fracture Energy" type="double" value="1"/><Parameter name="Critical Stretch")xml",
+            R"xml(:9: /Material/Fracture Energy: found beside "Critical Stretch"; allowed is one of the two)xml"},
+        Mistake{
+            "LengthAboveHorizon", R"xml(name="Characteristic Length" type="double" value="0.1")xml",
+            R"xml(name="Characteristic Length" type="double" value="1.5")xml",
+            R"xml(:12: /Peridynamics/Horizon: found 1.5; allowed is a number > "Characteristic Length", which is 1.5)xml"},
+        Mistake{
+            "GrowthRadii", R"xml(<ParameterList name="Seeds">)xml",
+            R"xml(<Parameter name="Growth Inner Radius" type="double" value="5"/><ParameterList name="Seeds">)xml",
+            R"xml(:15: /Morphing/Growth Outer Radius: found 4; allowed is a number > "Growth Inner Radius", which is 5)xml"},
+        Mistake{
+            "SeedRadii", R"xml(name="Outer Radius" type="double" value="6")xml",
+            R"xml(name="Outer Radius" type="double" value="4")xml",
+            R"xml(:20: /Morphing/Seeds/tip/Outer Radius: found 4; allowed is a number > "Inner Radius", which is 4)xml"},
+        Mistake{"MissingForTheShape", tip, "",
+                R"xml(:17: /Morphing/Seeds/tip/Center: missing; a seed with "Shape" "Circle" needs it)xml"},
+        Mistake{
+            "OfAnotherShape", box, box + R"xml(<Parameter name="Center" type="Array(double)" value="{0, 0}"/>)xml",
+            R"xml(:23: /Morphing/Seeds/bar/Center: found in a seed with "Shape" "Box"; allowed is only what describes)xml"},
+        Mistake{"CenterOfThree", "{100, 10}", "{100, 10, 0}",
+                ":18: /Morphing/Seeds/tip/Center: found {100, 10, 0}; allowed are 2 numbers, one per dimension"},
+        Mistake{"Corners", "{5, 1}", "{5, 0}",
+                ":25: /Morphing/Seeds/bar/Upper Corner: found {5, 0}; allowed is a corner above and to the right of "
+                "\"Lower Corner\", which is {0, 0}"},
+        Mistake{"OddPoints", "{0, 0, 5, 0}", "{0, 0, 5}",
+                ":32: /Pre-Cracks/slit/Points: found 3 numbers; allowed are two points or more, {x1, y1, x2, y2, ...}"},
+        Mistake{"OnePoint", "{0, 0, 5, 0}", "{0, 0}", "found 2 numbers; allowed are two points or more"},
+        Mistake{
+            "NoLength", "{0, 0, 5, 0}", "{0, 0, 5, 0, 5, 0}",
+            ":32: /Pre-Cracks/slit/Points: found the point (5, 0) twice in a row; allowed are segments that have a"},
+        Mistake{
+            "ComponentZ", R"xml(value="x")xml", R"xml(value="z")xml",
+            R"xml(:39: /Boundary Conditions/Displacements/hold/Component: found "z"; allowed is "x" or "y" in two)xml"},
+        Mistake{
+            "PrescribedTwice", R"xml(value="right"/>)xml", R"xml(value="left"/>)xml",
+            R"xml(:43: /Boundary Conditions/Displacements/pull/Component: found the group "left" with "x" again; )xml"
+            "/Boundary Conditions/Displacements/hold prescribes that displacement already"},
+        Mistake{"TractionOfOne", "{0, -1}", "{-1}",
+                ":50: /Boundary Conditions/Tractions/wind/Rate: found {-1}; allowed are 2 numbers, one per dimension"},
+        Mistake{"BodyForceOfThree", R"xml(<ParameterList name="Tractions">)xml",
+                R"xml(<ParameterList name="Body Force"><Parameter name="Rate" type="Array(double)" value="{1, 2, 3}"/>
+                   </ParameterList><ParameterList name="Tractions">)xml",
+                ":47: /Boundary Conditions/Body Force/Rate: found {1, 2, 3}; allowed are 2 numbers"},
+        Mistake{"ReactionTwice", "{left, right}", "{left, left}",
+                R"xml(:63: /Output/Reactions: found "left" twice; allowed is each group once)xml"}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Markup, OneMistake,
+    testing::Values(
+        Mistake{"UnknownTag", solver, "<Paramter/>" + solver,
+                R"xml(:57: found the tag "Paramter"; allowed are <Parameter .../> and <ParameterList ...>)xml"
+                R"xml( - did you mean "Parameter"?)xml"},
+        Mistake{"UnknownTagInside", tip, tip + "<!-- fine --><b/>",
+                R"xml(:18: /Morphing/Seeds/tip: found the tag "b";)xml"},
+        Mistake{"Text", solver, "hello" + solver, R"xml(:57: found the text "hello"; allowed are)xml"},
+        Mistake{"TextInAParameter", horizon + "/>", horizon + ">3</Parameter>",
+                R"xml(:12: /Peridynamics/Horizon: found the text "3" inside; allowed is value="..." alone)xml"},
+        Mistake{
+            "UnknownAttribute", horizon, horizon + R"xml( unit="mm")xml",
+            R"xml(:12: /Peridynamics/Horizon: found the attribute "unit"; allowed are "name", "type", "value", )xml"},
+        Mistake{"AttributeTwice", horizon, horizon + R"xml( value="2")xml",
+                R"xml(:12: /Peridynamics/Horizon: found the attribute "value" twice; allowed is once)xml"},
+        Mistake{"ValueOfAList", solver, R"xml(<ParameterList name="Solver" value="CG">)xml",
+                R"xml(:57: /Solver: found the attribute "value"; allowed are "name", "id", "docString")xml"},
+        Mistake{"NoName", solver, solver + R"xml(<Parameter type="int" value="3"/>)xml",
+                R"xml(:57: /Solver: <Parameter> without a name; name="..." is needed)xml"},
+        Mistake{"LongName", solver,
+                solver + "<Parameter name=\"" + std::string(201, 'a') + "\" type=\"int\" value=\"3\"/>",
+                R"xml(aaa..."; allowed is a readable one of at most 200 characters)xml"},
+        Mistake{"TwoRoots", valid, valid + R"xml(<ParameterList name="second"/>)xml",
+                R"xml(:66: found the tag "ParameterList"; allowed is one <ParameterList> that holds everything)xml"},
+        Mistake{"TextBesideTheRoot", valid, valid + "the end",
+                R"xml(:66: found the text "the end"; allowed is one)xml"},
+        Mistake{"DocumentType", valid, "<!DOCTYPE ParameterList>\n" + valid,
+                ":1: found a document type (entities are not expanded); allowed is one <ParameterList>"},
+        Mistake{"NoParameterList", valid, "<!-- nothing -->", ":1: there is no <ParameterList>; one that holds"},
+        Mistake{"UnclosedTag", "    <Parameter " + horizon + "/>", "    <Parameter " + horizon + ">",
+                ":14: the XML is broken here (Start-end tags mismatch); is a tag, a quote or a \"/>\" missing?"},
+        Mistake{"UnclosedQuote", R"xml(value="1.5"/>)xml", R"xml(value="1.5/>)xml",
+                ":13: the XML is broken here (Error parsing"},
+        Mistake{"Truncated", "</ParameterList>\n</ParameterList>\n", "", "the XML is broken here"},
+        Mistake{"NotXml", valid, "Horizon = 1.5", R"xml(:1: found the text "Horizon = 1.5"; allowed is one)xml"}),
+    named);
+
+// --- several mistakes ---
+
+TEST_F(CaseFile, AllMistakesAreListedInOneGoByLine) {
+  std::string text = replaced(valid, horizon, R"xml(name="Horizon" type="double" value="abc")xml");
+  text = replaced(text, R"xml(value="0.3333")xml", R"xml(value="0.3")xml");
+  text = replaced(text, elastic_model, elastic_model + R"xml( unit="none")xml");
+  text = replaced(text, R"xml(name="Increments")xml", R"xml(name="Incremnets")xml");
+  text = replaced(text, "{0, -1}", "{0}");
+
+  const std::string message = error(text, {"Solver/Tolerence=1"});
+
+  EXPECT_THAT(message, StartsWith("7 mistakes in " + file() + "\n"));
+  const std::vector<std::string> in_order{":7: /Material/Poisson's Ratio: ",
+                                          ":8: /Material/Elastic Model: found the attribute",
+                                          ":12: /Peridynamics/Horizon: found \"abc\"",
+                                          ":50: /Boundary Conditions/Tractions/wind/Rate: ",
+                                          ":54: /Loading/Increments: missing",
+                                          ":55: /Loading/Incremnets: unknown parameter",
+                                          "\n--set: /Solver/Tolerence: unknown parameter"};
+  std::size_t at = 0;
+  for (const auto& mistake : in_order) {
+    at = message.find(mistake, at);
+    ASSERT_NE(at, std::string::npos) << mistake << " is not in its place in\n" << message;
+  }
+}
+
+TEST_F(CaseFile, EmptyListMissesAllThatIsRequired) {
+  const std::string message = error("<ParameterList/>");
+
+  EXPECT_THAT(message, StartsWith("7 mistakes in "));
+  for (const char* path :
+       {"/Mesh/File", "/Material/Young's Modulus", "/Material/Poisson's Ratio", "/Material/Elastic Model",
+        "/Peridynamics/Horizon", "/Peridynamics/Characteristic Length", "/Loading/Increments"}) {
+    EXPECT_THAT(message, HasSubstr(":1: " + std::string(path) + ": missing; needed is"));
+  }
+}
+
+TEST_F(CaseFile, HopelessFileIsNotReadToItsEnd) {
+  std::string tags;
+  for (int i = 0; i < 300000; ++i) tags += "<a/>\n";
+
+  const std::string message = error(replaced(valid, solver, tags + solver));
+
+  EXPECT_THAT(message, StartsWith("more than 99 mistakes in " + file() + ", of which the first are\n"));
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 100);
+}
+
+}  // namespace

@@ -1,0 +1,93 @@
+#pragma once
+
+// The parts of the coupled model on a small mesh, put together without a case file, for tests of single packages.
+
+#include <Teuchos_DefaultComm.hpp>
+#include <Tpetra_Core.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+
+#include "perimorph/operators/coupled_stiffness.hpp"
+#include "perimorph/operators/internal_force.hpp"
+#include "support/meshes.hpp"
+
+namespace perimorph::tests {
+
+struct Setup {
+  Grid grid;
+  double horizon, characteristic_length;
+  std::vector<morphing::Zone<2>> zones;
+  operators::PeridynamicStiffness policy = operators::PeridynamicStiffness::dropped;
+  bool whole_zone_discontinuous = false;
+  std::vector<discretization::PrescribedComponent> prescribed = {};
+  std::vector<mesh::CrackFacet<2>> pre_cracks = {};
+};
+
+struct CoupledBody {
+  Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
+  mesh::Mesh<2> mesh;
+  base::Stiffness<2> e0;
+  materials::Micromodulus c0;
+  elements::MaterialPoints<2> points;
+  morphing::MorphingField<2> alpha;
+  bonds::BondFamilies<2> bonds;
+  operators::MorphedStiffness<2> elasticity;
+  discretization::Dirichlet<2> dirichlet;
+  std::vector<morphing::ElementClass> classes;
+  std::vector<char> discontinuous;
+  std::unique_ptr<discretization::DofMap<2>> dofs;
+  std::unique_ptr<operators::CoupledStiffness<2>> stiffness;
+
+  static constexpr double youngs_modulus = 1000.;
+
+  explicit CoupledBody(const Setup& setup) : CoupledBody(setup, grid(setup.grid)) {}
+
+  /// @param whole the whole mesh (used on rank 0)
+  CoupledBody(const Setup& setup, const mesh::Mesh<2>& whole)
+      : mesh(mesh::distribute(*comm, whole, setup.horizon)),
+        e0(materials::elasticity_tensor<2>(materials::ElasticModel::plane_stress, youngs_modulus, 1. / 3.)),
+        c0(materials::calibrate<2>(materials::ElasticModel::plane_stress, youngs_modulus, setup.characteristic_length,
+                                   setup.horizon)),
+        points(mesh),
+        alpha(mesh, points, morphing::Profile::linear),
+        bonds(mesh, points, mesh::active_elements(mesh), c0, setup.pre_cracks),
+        elasticity(e0, setup.policy),
+        dirichlet(*comm, mesh, setup.prescribed),
+        classes(mesh.n_elements(), morphing::ElementClass::fe),
+        discontinuous(mesh.n_elements(), 0) {
+    bonds.extend(alpha.add(setup.zones));
+    const auto extremes = bonds.neighbourhood_extremes(alpha);
+    for (int e = 0; e < mesh.n_owned_elements; ++e) {
+      double smallest = 1., largest = 0.;
+      for (int p = points.first(e); p < points.first(e + 1); ++p) {
+        smallest = std::min(smallest, extremes.smallest[p]);
+        largest = std::max(largest, extremes.largest[p]);
+      }
+      classes[e] = smallest == 1. ? morphing::ElementClass::pd
+                   : largest > 0. ? morphing::ElementClass::morph
+                                  : morphing::ElementClass::fe;
+      discontinuous[e] = setup.whole_zone_discontinuous && classes[e] == morphing::ElementClass::pd;
+    }
+    const auto exchange = discretization::element_exchange(*comm, mesh);
+    exchange.update(classes);
+    exchange.update(discontinuous);
+    elasticity.update(mesh, points, bonds, alpha, classes);
+    dofs = std::make_unique<discretization::DofMap<2>>(comm, mesh, discretization::corner_exchange(*comm, mesh), discontinuous);
+    stiffness = std::make_unique<operators::CoupledStiffness<2>>(model(), dirichlet, discontinuous);
+  }
+
+  operators::CoupledModel<2> model() const { return {mesh, points, bonds, alpha, elasticity, *dofs}; }
+
+  /// The matrix, dense; on one rank.
+  Eigen::MatrixXd dense() const {
+    const auto local = stiffness->matrix()->getLocalMatrixHost();
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(local.numRows(), local.numCols());
+    for (int row = 0; row < local.numRows(); ++row) {
+      for (auto i = local.graph.row_map(row); i < local.graph.row_map(row + 1); ++i) {
+        k(row, local.graph.entries(i)) = local.values(i);
+      }
+    }
+    return k;
+  }
+};
+
+}  // namespace perimorph::tests

@@ -1,0 +1,83 @@
+#pragma once
+
+// Small meshes made in memory, for tests.
+
+#include <cmath>
+
+#include "perimorph/mesh/distribute.hpp"
+#include "perimorph/mesh/mesh.hpp"
+
+namespace perimorph::tests {
+
+using Point2 = base::Point<2>;
+
+struct Grid {
+  int nx, ny;
+  double width = 1., height = 1.;
+  Point2 origin = Point2::Zero();
+  double distortion = 0.;  ///< of inner nodes, as a share of the spacing
+  bool triangles = false;
+};
+
+/// A whole rectangular mesh of quadrilaterals (or each cut into two triangles) on one rank. Node sets "left", "right",
+/// "bottom", "top", "all" and "boundary", side set "top" and "right", block "body".
+inline mesh::Mesh<2> grid(const Grid& g) {
+  mesh::Mesh<2> mesh;
+  mesh.block_names = {"body"};
+  const double dx = g.width / g.nx, dy = g.height / g.ny;
+  const auto node = [&](int i, int j) { return j * (g.nx + 1) + i; };
+  for (int j = 0; j <= g.ny; ++j) {
+    for (int i = 0; i <= g.nx; ++i) {
+      const bool inner = i > 0 && i < g.nx && j > 0 && j < g.ny;
+      const double shift = inner ? g.distortion : 0.;
+      // A fixed irregular pattern: no random numbers, the same on every machine.
+      const Point2 wobble(std::sin(12.9898 * i + 78.233 * j), std::sin(39.346 * i + 11.135 * j));
+      mesh.coordinates.push_back(g.origin + Point2((i + shift * wobble[0]) * dx, (j + shift * wobble[1]) * dy));
+      const int n = node(i, j);
+      if (i == 0) mesh.node_sets["left"].push_back(n);
+      if (i == g.nx) mesh.node_sets["right"].push_back(n);
+      if (j == 0) mesh.node_sets["bottom"].push_back(n);
+      if (j == g.ny) mesh.node_sets["top"].push_back(n);
+      if (!inner) mesh.node_sets["boundary"].push_back(n);
+      mesh.node_sets["all"].push_back(n);
+    }
+  }
+  const auto add = [&](mesh::ElementType type, std::initializer_list<int> corners) {
+    mesh.types.push_back(type);
+    mesh.blocks.push_back(0);
+    mesh.corners.insert(mesh.corners.end(), corners);
+    mesh.first_corner.push_back(static_cast<int>(mesh.corners.size()));
+  };
+  for (int j = 0; j < g.ny; ++j) {
+    for (int i = 0; i < g.nx; ++i) {
+      const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
+      if (g.triangles) {
+        add(mesh::ElementType::tri3, {a, b, c});
+        add(mesh::ElementType::tri3, {a, c, d});
+      } else {
+        add(mesh::ElementType::quad4, {a, b, c, d});
+      }
+      const int last = static_cast<int>(mesh.types.size()) - 1;
+      if (j == g.ny - 1) mesh.side_sets["top"].push_back({last, g.triangles ? 1 : 2});
+      if (i == g.nx - 1) mesh.side_sets["right"].push_back({g.triangles ? last - 1 : last, 1});
+    }
+  }
+  const int n_nodes = mesh.n_nodes(), n_elements = mesh.n_elements();
+  for (int n = 0; n < n_nodes; ++n) mesh.node_ids.push_back(n);
+  for (int e = 0; e < n_elements; ++e) mesh.element_ids.push_back(e);
+  mesh.node_owners.assign(n_nodes, 0);
+  mesh.element_owners.assign(n_elements, 0);
+  mesh.n_owned_nodes = n_nodes;
+  mesh.n_owned_elements = n_elements;
+  mesh.n_global_nodes = n_nodes;
+  mesh.n_global_elements = n_elements;
+  mesh::find_boundary(mesh);
+  return mesh;
+}
+
+/// The grid, distributed over the ranks.
+inline mesh::Mesh<2> distributed_grid(const base::Comm& comm, const Grid& g, double halo_width) {
+  return mesh::distribute(comm, comm.getRank() == 0 ? grid(g) : mesh::Mesh<2>{}, halo_width);
+}
+
+}  // namespace perimorph::tests

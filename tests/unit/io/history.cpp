@@ -1,0 +1,110 @@
+#include "perimorph/io/history.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "limited_file_size.hpp"
+#include "perimorph/base/errors.hpp"
+#include "temporary_directory.hpp"
+
+namespace perimorph {
+namespace {
+
+using io::History;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string text_of(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+template <class Error, class Work>
+std::string message_of(Work work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing of this kind was thrown";
+}
+
+TEST(History, WritesAHeaderAndOneRowPerIncrement) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+
+  History history(file, {"increment", "load_factor", "reaction_top_y"});
+  history.write({1, 0.05, -1234.5678901234});
+  history.write({2, 1. / 3., 1e-17});
+
+  EXPECT_EQ(text_of(file),
+            "increment,load_factor,reaction_top_y\n"
+            "1,0.05,-1234.56789\n"
+            "2,0.3333333333,1e-17\n");
+}
+
+TEST(History, WritesIntegralValuesWithoutExponentAndWithoutASignOfZero) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+
+  History history(file, {"a", "b", "c", "d"});
+  history.write({12345678901234., -0., -3., 1e20});
+
+  EXPECT_EQ(text_of(file), "a,b,c,d\n12345678901234,0,-3,1e+20\n");
+}
+
+TEST(History, EveryRowIsOnDiskAtOnce) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+  History history(file, {"increment"});
+  EXPECT_EQ(text_of(file), "increment\n");
+  history.write({1});
+  EXPECT_EQ(text_of(file), "increment\n1\n");
+}
+
+TEST(History, ANameWithACommaStaysOneColumn) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+  const History history(file, {"increment", "reaction_top, \"left\"_y"});
+  EXPECT_EQ(text_of(file), "increment,\"reaction_top, \"\"left\"\"_y\"\n");
+}
+
+TEST(History, AnUnwritablePathIsTheUsersMistakeAndNamesTheFile) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.file("absent/history.csv");
+  const std::string message = message_of<base::UserError>([&] { History(file, {"increment"}); });
+  EXPECT_EQ(message, file +
+                         ": the history cannot be written: No such file or directory; "
+                         "name another directory with --output");
+}
+
+TEST(History, AFullDiskAtTheStartIsTheUsersMistake) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+  const test::LimitedFileSize limit(4);
+  const std::string message = message_of<base::UserError>([&] { History(file, {"increment"}); });
+  EXPECT_THAT(message, AllOf(StartsWith(file + ": "), HasSubstr("File too large")));
+}
+
+TEST(History, ADiskThatFillsUpLaterStopsTheComputation) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+  History history(file, {"increment"});
+  const test::LimitedFileSize limit(10);
+  const std::string message = message_of<base::ComputationError>([&] { history.write({1}), history.write({2}); });
+  EXPECT_EQ(message, file + ": the history cannot be written: File too large");
+}
+
+TEST(History, ARowOfTheWrongLengthIsABug) {
+  const test::TemporaryDirectory directory;
+  History history(directory.file("history.csv"), {"increment", "load_factor"});
+  EXPECT_THROW(history.write({1}), base::Bug);
+}
+
+}  // namespace
+}  // namespace perimorph

@@ -1,0 +1,292 @@
+#include "perimorph/mesh/distribute.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
+#include <algorithm>
+#include <set>
+
+#include "example_meshes.hpp"
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::mesh {
+namespace {
+
+constexpr double horizon = 1.7;
+
+/// What all ranks know of one element or node of the whole mesh once their parts are gathered.
+struct Copy {
+  GlobalId id;
+  int owner;
+  int holder;
+};
+
+template <int dim>
+std::array<int, dim> many_cells() {
+  std::array<int, dim> n;
+  n.fill(dim == 2 ? 12 : 6);
+  n[0] += 3;
+  return n;
+}
+
+template <int dim>
+struct Parted {
+  Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
+  Mesh<dim> whole;  // on every rank, to compare with
+  Mesh<dim> part;
+
+  explicit Parted(const std::array<int, dim>& cells, const std::vector<double>& weights = {}) {
+    whole = grid<dim>(cells);
+    perturb(whole);
+    part = distribute(*comm, comm->getRank() == 0 ? whole : Mesh<dim>(), horizon,
+                      comm->getRank() == 0 ? weights : std::vector<double>());
+  }
+
+  std::vector<Copy> all_elements() const { return gathered(part.element_ids, part.element_owners); }
+  std::vector<Copy> all_nodes() const { return gathered(part.node_ids, part.node_owners); }
+
+  std::vector<Copy> gathered(const std::vector<GlobalId>& ids, const std::vector<int>& owners) const {
+    std::vector<Copy> mine;
+    for (std::size_t i = 0; i < ids.size(); ++i) mine.push_back({ids[i], owners[i], part.rank});
+    return base::gather_on_all(*comm, mine);
+  }
+
+  /// Owner of each element of the whole.
+  std::vector<int> element_owners() const {
+    std::vector<int> owners(whole.n_elements(), -1);
+    for (const Copy& copy : all_elements()) {
+      if (copy.owner == copy.holder) owners[copy.id] = copy.owner;
+    }
+    return owners;
+  }
+};
+
+/// The lowest rank that owns an element around each node of the whole.
+template <int dim>
+std::vector<int> lowest_owners(const Mesh<dim>& whole, const std::vector<int>& element_owners) {
+  std::vector<int> lowest(whole.n_nodes(), 1000);
+  for (int e = 0; e < whole.n_elements(); ++e) {
+    for (int c = 0; c < whole.n_corners(e); ++c) {
+      int& owner = lowest[whole.corners_of(e)[c]];
+      owner = std::min(owner, element_owners[e]);
+    }
+  }
+  return lowest;
+}
+
+template <int dim>
+std::set<GlobalId> active_by_definition(const Mesh<dim>& whole, const std::vector<int>& element_owners, int rank) {
+  const std::vector<int> node_owners = lowest_owners(whole, element_owners);
+  std::set<GlobalId> active;
+  for (int e = 0; e < whole.n_elements(); ++e) {
+    if (element_owners[e] == rank) active.insert(e);
+    for (int c = 0; c < whole.n_corners(e); ++c) {
+      if (node_owners[whole.corners_of(e)[c]] == rank) active.insert(e);
+    }
+  }
+  return active;
+}
+
+/// Every element against every active one.
+template <int dim>
+std::set<GlobalId> needed_by_definition(const Mesh<dim>& whole, const std::set<GlobalId>& active) {
+  std::set<GlobalId> needed = active;
+  for (int e = 0; e < whole.n_elements(); ++e) {
+    for (const GlobalId id : active) {
+      const int a = static_cast<int>(id);
+      const double distance = (centroid(whole, e) - centroid(whole, a)).norm();
+      if (distance <= horizon + radius(whole, e) + radius(whole, a)) needed.insert(e);
+    }
+  }
+  return needed;
+}
+
+template <class Dimension>
+class Distribute : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Distribute, Dimensions);
+
+TYPED_TEST(Distribute, EveryElementIsOwnedOnceAndAllCopiesAgreeOnTheOwner) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+  const std::vector<int> owners = parted.element_owners();
+
+  EXPECT_EQ(base::sum(*parted.comm, GlobalId{parted.part.n_owned_elements}), parted.whole.n_elements());
+  EXPECT_THAT(owners, testing::Not(testing::Contains(-1)));
+  for (const Copy& copy : parted.all_elements()) EXPECT_EQ(copy.owner, owners[copy.id]);
+}
+
+TYPED_TEST(Distribute, EveryNodeIsOwnedByTheLowestRankAroundIt) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+  const std::vector<int> expected = lowest_owners(parted.whole, parted.element_owners());
+
+  EXPECT_EQ(base::sum(*parted.comm, GlobalId{parted.part.n_owned_nodes}), parted.whole.n_nodes());
+  for (const Copy& copy : parted.all_nodes()) EXPECT_EQ(copy.owner, expected[copy.id]);
+}
+
+TYPED_TEST(Distribute, AnOwnedNodeHasAllItsElements) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+  const auto count = [](const auto& mesh) {
+    std::vector<int> n_around(mesh.n_nodes(), 0);
+    for (const int node : mesh.corners) ++n_around[node];
+    return n_around;
+  };
+
+  const std::vector<int> here = count(parted.part), everywhere = count(parted.whole);
+  for (int n = 0; n < parted.part.n_owned_nodes; ++n) EXPECT_EQ(here[n], everywhere[parted.part.node_ids[n]]);
+}
+
+TYPED_TEST(Distribute, TheHaloIsWhatMayLieWithinAHorizonOfAnActiveElement) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+  const auto active = active_by_definition(parted.whole, parted.element_owners(), parted.part.rank);
+
+  const std::set<GlobalId> held(parted.part.element_ids.begin(), parted.part.element_ids.end());
+
+  EXPECT_EQ(held, needed_by_definition(parted.whole, active));
+}
+
+TYPED_TEST(Distribute, ActiveElementsAreTheOwnedOnesAndThoseAroundOwnedNodes) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+
+  std::set<GlobalId> active;
+  const std::vector<char> is_active = active_elements(parted.part);
+  for (int e = 0; e < parted.part.n_elements(); ++e) {
+    if (is_active[e]) active.insert(parted.part.element_ids[e]);
+  }
+
+  EXPECT_EQ(active, active_by_definition(parted.whole, parted.element_owners(), parted.part.rank));
+}
+
+TYPED_TEST(Distribute, OwnedComeFirstAndAllIsByAscendingId) {
+  const auto part = Parted<TypeParam::value>(many_cells<TypeParam::value>()).part;
+  const auto check = [&](const std::vector<GlobalId>& ids, const std::vector<int>& owners, int n_owned) {
+    for (int i = 0; i < static_cast<int>(ids.size()); ++i) EXPECT_EQ(owners[i] == part.rank, i < n_owned);
+    EXPECT_TRUE(std::is_sorted(ids.begin(), ids.begin() + n_owned));
+    EXPECT_TRUE(std::is_sorted(ids.begin() + n_owned, ids.end()));
+  };
+
+  check(part.element_ids, part.element_owners, part.n_owned_elements);
+  check(part.node_ids, part.node_owners, part.n_owned_nodes);
+}
+
+TYPED_TEST(Distribute, EachPartIsTheWholeRestricted) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+  const auto &part = parted.part, &whole = parted.whole;
+
+  EXPECT_EQ(part.rank, parted.comm->getRank());
+  EXPECT_EQ(part.n_global_nodes, whole.n_nodes());
+  EXPECT_EQ(part.n_global_elements, whole.n_elements());
+  EXPECT_EQ(part.block_names, whole.block_names);
+  for (int n = 0; n < part.n_nodes(); ++n) EXPECT_EQ(part.coordinates[n], whole.coordinates[part.node_ids[n]]);
+  for (int e = 0; e < part.n_elements(); ++e) {
+    const int id = static_cast<int>(part.element_ids[e]);
+    EXPECT_EQ(part.types[e], whole.types[id]);
+    EXPECT_EQ(part.blocks[e], whole.blocks[id]);
+    ASSERT_EQ(part.n_corners(e), whole.n_corners(id));
+    for (int c = 0; c < part.n_corners(e); ++c) {
+      EXPECT_EQ(part.node_ids[part.corners_of(e)[c]], whole.corners_of(id)[c]);
+    }
+  }
+}
+
+using SideIds = std::set<std::pair<GlobalId, int>>;
+
+template <int dim>
+SideIds ids_of(const Mesh<dim>& mesh, const std::vector<Side>& some) {
+  SideIds ids;
+  for (const Side& side : some) ids.insert({mesh.element_ids[side.element], side.side});
+  return ids;
+}
+
+/// The sides of the whole whose element a part holds.
+template <int dim>
+SideIds held_sides(const Mesh<dim>& part, const Mesh<dim>& whole, const std::vector<Side>& some) {
+  const std::set<GlobalId> held(part.element_ids.begin(), part.element_ids.end());
+  SideIds kept;
+  for (const auto& id : ids_of(whole, some)) {
+    if (held.count(id.first) == 1) kept.insert(id);
+  }
+  return kept;
+}
+
+TYPED_TEST(Distribute, TheBoundaryIsTheBodysAndNotTheHalosRim) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+  const auto &part = parted.part, &whole = parted.whole;
+  EXPECT_EQ(ids_of(part, part.boundary), held_sides(part, whole, whole.boundary));
+}
+
+TYPED_TEST(Distribute, SetsAreRestrictedAndTheirNamesKnownEverywhere) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+  const auto &part = parted.part, &whole = parted.whole;
+
+  ASSERT_EQ(part.node_sets.size(), whole.node_sets.size());
+  ASSERT_EQ(part.side_sets.size(), whole.side_sets.size());
+  for (const auto& [name, nodes] : whole.node_sets) {
+    std::vector<int> expected;
+    for (int n = 0; n < part.n_nodes(); ++n) {
+      if (std::count(nodes.begin(), nodes.end(), part.node_ids[n]) == 1) expected.push_back(n);
+    }
+    EXPECT_EQ(part.node_sets.at(name), expected) << name;
+  }
+  for (const auto& [name, set] : whole.side_sets) {
+    EXPECT_EQ(ids_of(part, part.side_sets.at(name)), held_sides(part, whole, set)) << name;
+  }
+}
+
+TYPED_TEST(Distribute, TheSameMeshIsAlwaysPartedInTheSameWay) {
+  const Parted<TypeParam::value> first(many_cells<TypeParam::value>()), second(many_cells<TypeParam::value>());
+
+  EXPECT_EQ(first.part.element_ids, second.part.element_ids);
+  EXPECT_EQ(first.part.element_owners, second.part.element_owners);
+}
+
+TYPED_TEST(Distribute, EqualCostsGiveEqualParts) {
+  const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
+  const double ideal = static_cast<double>(parted.whole.n_elements()) / parted.comm->getSize();
+
+  EXPECT_NEAR(parted.part.n_owned_elements, ideal, 0.06 * ideal + 1.);
+}
+
+TYPED_TEST(Distribute, CostlyElementsAreSharedOut) {
+  constexpr int dim = TypeParam::value;
+  const Mesh<dim> whole = grid<dim>(many_cells<dim>());
+  std::vector<double> weights;
+  for (int e = 0; e < whole.n_elements(); ++e) weights.push_back(whole.blocks[e] == 0 ? 20. : 1.);
+
+  const Parted<dim> parted(many_cells<dim>(), weights);
+
+  double cost = 0.;
+  for (int e = 0; e < parted.part.n_owned_elements; ++e) cost += weights[parted.part.element_ids[e]];
+  const double ideal = std::accumulate(weights.begin(), weights.end(), 0.) / parted.comm->getSize();
+  EXPECT_NEAR(cost, ideal, 0.15 * ideal);
+}
+
+TYPED_TEST(Distribute, FewerElementsThanRanksLeavesSomeRanksWithout) {
+  constexpr int dim = TypeParam::value;
+  std::array<int, dim> one_row;
+  one_row.fill(1);
+  for (const int n : {1, 2, 3}) {
+    one_row[0] = n;
+    const Parted<dim> parted(one_row);
+
+    EXPECT_EQ(base::sum(*parted.comm, GlobalId{parted.part.n_owned_elements}), n);
+    EXPECT_EQ(base::sum(*parted.comm, GlobalId{parted.part.n_owned_nodes}), parted.whole.n_nodes());
+    EXPECT_EQ(parted.part.block_names, parted.whole.block_names);
+    EXPECT_EQ(parted.part.first_corner.front(), 0);
+    if (n <= parted.comm->getSize()) {
+      EXPECT_LE(parted.part.n_owned_elements, 1);
+    }
+  }
+}
+
+TYPED_TEST(Distribute, AnErrorOnRankZeroReachesAllRanks) {
+  constexpr int dim = TypeParam::value;
+  const auto comm = Tpetra::getDefaultComm();
+  const Mesh<dim> whole = grid<dim>(many_cells<dim>());
+
+  EXPECT_THROW(distribute(*comm, whole, horizon, {1., 2.}), base::Bug);
+  EXPECT_THROW(distribute(*comm, whole, std::nan("")), base::Bug);
+}
+
+}  // namespace
+}  // namespace perimorph::mesh

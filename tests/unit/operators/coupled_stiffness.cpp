@@ -1,0 +1,154 @@
+// The coupled stiffness against a plain reference assembled by brute force over all pairs of points, and its properties.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "perimorph/elements/strain.hpp"
+#include "support/coupled_body.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using operators::PeridynamicStiffness;
+
+/// A 9 x 8 grid of irregular quadrilaterals, spacing 1, with a zone in the middle: all three classes occur.
+Setup hybrid(PeridynamicStiffness policy, bool discontinuous, bool triangles = false) {
+  Setup setup{{9, 8, 9., 8., Point2::Zero(), 0.15, triangles}, 2., 0.4, {}, policy, discontinuous, {}, {}};
+  setup.zones = {morphing::Zone<2>::ball({4.5, 4.}, 3., 4.)};
+  return setup;
+}
+
+/// Shape function values of all nodes at a point of an element, as a (2, 2 n_nodes) matrix.
+Eigen::MatrixXd interpolation(const CoupledBody& body, int e, int q) {
+  Eigen::MatrixXd n = Eigen::MatrixXd::Zero(2, 2 * body.dofs->n_nodes());
+  for (int k = 0; k < body.mesh.n_corners(e); ++k) {
+    for (int c = 0; c < 2; ++c) n(c, 2 * body.dofs->nodes_of(e)[k] + c) += body.points.shape(e, q)(k);
+  }
+  return n;
+}
+
+struct PlainPoint {
+  int element, q, index;
+  Point2 x;
+  double w, alpha;
+};
+
+std::vector<PlainPoint> all_points(const CoupledBody& body) {
+  std::vector<PlainPoint> points;
+  for (int e = 0; e < body.mesh.n_elements(); ++e) {
+    for (int q = 0; q < body.points.count(e); ++q) {
+      const int p = body.points.first(e) + q;
+      points.push_back({e, q, p, body.points.position(p), body.points.weight(p), body.alpha(p)});
+    }
+  }
+  return points;
+}
+
+/// c0 of WHL19, eq. 24, written out.
+double plain_micromodulus(const CoupledBody& body, double r) {
+  return r <= body.c0.horizon ? body.c0.tau0 * std::exp(-r / body.c0.characteristic_length) : 0.;
+}
+
+/// WHL19, eq. 22: all ordered pairs of points of a convex body, factor 1/2, no shortcuts. E(x) is taken as computed.
+Eigen::MatrixXd reference_stiffness(const CoupledBody& body) {
+  const int n = 2 * body.dofs->n_nodes();
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
+  const auto points = all_points(body);
+  for (const auto& x : points) {
+    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(3, n);
+    const auto g = body.points.gradients(x.element, x.q);
+    for (int c = 0; c < g.cols(); ++c) {
+      const int node = body.dofs->nodes_of(x.element)[c];
+      b(0, 2 * node) += g(0, c);
+      b(1, 2 * node + 1) += g(1, c);
+      b(2, 2 * node) += g(1, c);
+      b(2, 2 * node + 1) += g(0, c);
+    }
+    k += x.w * b.transpose() * body.elasticity.at(x.element, x.q) * b;
+    for (const auto& p : points) {
+      if (p.index == x.index) continue;
+      const Point2 xi = p.x - x.x;
+      const double c = 0.5 * plain_micromodulus(body, xi.norm()) * 0.5 * (x.alpha + p.alpha) * x.w * p.w;
+      if (c == 0.) continue;
+      const Eigen::MatrixXd eta = interpolation(body, p.element, p.q) - interpolation(body, x.element, x.q);
+      k += c * eta.transpose() * (xi * xi.transpose()) * eta;
+    }
+  }
+  return k;
+}
+
+class CoupledStiffness : public ::testing::TestWithParam<std::tuple<PeridynamicStiffness, bool, bool>> {
+ protected:
+  CoupledBody body{std::apply(hybrid, GetParam())};
+};
+
+TEST_P(CoupledStiffness, EqualsTheBruteForceSumOverAllPairsOfPoints) {
+  const Eigen::MatrixXd expected = reference_stiffness(body);
+  // The anchor of discontinuous elements is 1e-8 of their diagonals.
+  EXPECT_LT((body.dense() - expected).cwiseAbs().maxCoeff(), 2e-8 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST_P(CoupledStiffness, IsSymmetricAndPositiveWithThreeRigidModesAtZeroEnergy) {
+  const Eigen::MatrixXd k = body.dense();
+  EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 1e-13 * k.cwiseAbs().maxCoeff());
+  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+  const double largest = eigenvalues.maxCoeff();
+  EXPECT_LT(eigenvalues.head(3).cwiseAbs().maxCoeff(), 1e-7 * largest);  // the anchors'
+  EXPECT_GT(eigenvalues[3], 1e-5 * largest);
+}
+
+TEST_P(CoupledStiffness, TimesADisplacementIsTheMatrixFreeInternalForce) {
+  Eigen::VectorXd u(2 * body.dofs->n_nodes());
+  for (int i = 0; i < u.size(); ++i) u[i] = std::sin(1.7 * i);
+  const auto force = operators::internal_force(body.model(), u.data(), operators::displacements_at_points(body.model(), u.data()));
+  const Eigen::VectorXd expected = body.dense() * u;
+  const Eigen::Map<const Eigen::VectorXd> actual(force.data(), u.size());
+  EXPECT_LT((actual - expected).norm(), 2e-8 * expected.norm());  // the anchors'
+}
+
+TEST_P(CoupledStiffness, WithoutBrokenBondsEqualsTheOneAssembledAfterBreaking) {
+  const std::vector<double> zero(2 * body.dofs->n_nodes(), 0.);
+  std::vector<std::size_t> broken;
+  for (int p = 0; p < body.bonds.n_pairs(); p += 3) {
+    if (body.bonds.pair(p).first == body.bonds.pair(p).second) continue;
+    for (auto b = body.bonds.first_bond(p); b < body.bonds.first_bond(p + 1); b += 2) {
+      body.bonds.set_broken(p, b);
+      broken.push_back(b);
+    }
+  }
+  ASSERT_GT(broken.size(), 100u);
+  body.stiffness->subtract(broken);
+  const Eigen::MatrixXd updated = body.dense();
+  body.stiffness = std::make_unique<operators::CoupledStiffness<2>>(body.model(), body.dirichlet, body.discontinuous);
+  EXPECT_LT((updated - body.dense()).cwiseAbs().maxCoeff(), 2e-8 * updated.cwiseAbs().maxCoeff());  // the anchors'
+}
+
+INSTANTIATE_TEST_SUITE_P(Policies, CoupledStiffness,
+                         ::testing::Combine(::testing::Values(PeridynamicStiffness::dropped, PeridynamicStiffness::kept),
+                                            ::testing::Bool(), ::testing::Bool()));
+
+TEST(MorphedStiffness, EqualsTheDiscreteSumOfEquation16ClippedToPositive) {
+  const CoupledBody body(hybrid(PeridynamicStiffness::kept, false));
+  const auto points = all_points(body);
+  int n_reduced = 0;
+  for (const auto& x : points) {
+    base::Stiffness<2> e = body.e0;
+    for (const auto& p : points) {
+      if (p.index == x.index) continue;
+      const Point2 xi = p.x - x.x;
+      const double factor = 0.5 * plain_micromodulus(body, xi.norm()) * 0.5 * (x.alpha + p.alpha) * p.w;
+      const Eigen::Vector3d v(xi[0] * xi[0], xi[1] * xi[1], xi[0] * xi[1]);
+      e -= factor * v * v.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<base::Stiffness<2>> eigen(e);
+    const base::Stiffness<2> clipped =
+        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() * eigen.eigenvectors().transpose();
+    EXPECT_LT((body.elasticity.at(x.element, x.q) - clipped).norm(), 1e-12 * body.e0.norm());
+    n_reduced += (e - body.e0).norm() > 0.01 * body.e0.norm();
+  }
+  EXPECT_GT(n_reduced, 100);  // the zone is there
+}
+
+}  // namespace
+}  // namespace perimorph::tests
