@@ -1,5 +1,7 @@
 // perimorph run | check | params: the command line. The adaptive loop is in packages/fracture/src/adaptive_loop.cpp.
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
 #include <cstdio>
@@ -15,7 +17,12 @@ using namespace perimorph;
 struct Arguments {
   std::string case_file, output;
   std::vector<std::string> overrides;
-  bool quiet = false;
+  bool quiet = false, no_progress = false;
+
+  fracture::Talk talk() const {
+    if (quiet) return fracture::Talk::quiet;
+    return no_progress || isatty(STDOUT_FILENO) == 0 ? fracture::Talk::lines : fracture::Talk::progress;
+  }
 };
 
 /// Rank 0 reads the case file; a mistake in it is an error on all ranks, and no rank reads on its own.
@@ -41,6 +48,7 @@ int main(int argc, char** argv) {
   auto* run = app.add_subcommand("run", "Run a case to its last increment");
   add_case_options(*run, arguments);
   run->add_option("--output", arguments.output, "Folder for the results (default: results/<case>)");
+  run->add_flag("--no-progress", arguments.no_progress, "No progress bar, even on a terminal");
   auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what it would cost");
   add_case_options(*check, arguments);
   app.add_subcommand("params", "Print every parameter with default, range, unit and meaning");
@@ -63,9 +71,9 @@ int main(int argc, char** argv) {
     }
     const fracture::Case input = read_case(*comm, arguments);
     if (app.got_subcommand(check)) {
-      fracture::check(comm, input, arguments.quiet);
+      fracture::check(comm, input, arguments.talk());
     } else {
-      fracture::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output, arguments.quiet);
+      fracture::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output, arguments.talk());
     }
     return 0;
   } catch (const base::UserError& error) {

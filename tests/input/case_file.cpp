@@ -50,7 +50,7 @@ TEST_F(CaseFile, DefaultsAreFilledIn) {
   EXPECT_THAT(result.body_force_rate, ElementsAre(0., 0.));
   EXPECT_EQ(result.max_damage_iterations, 20000);
   EXPECT_EQ(result.max_zone_growths, 5000);
-  EXPECT_EQ(result.tolerance, 1e-8);
+  EXPECT_EQ(result.tolerance, 1e-6);
   EXPECT_EQ(result.max_cg_iterations, 500);
   EXPECT_EQ(result.rebuild_growth, 1.5);
   EXPECT_EQ(result.output_every, 1);
@@ -222,7 +222,7 @@ TEST(CaseSchema, ReferenceSaysTypeDefaultRangeAndUnit) {
   EXPECT_THAT(text,
               HasSubstr("/Material/Young's Modulus\n    double; required, such as 30000; allowed is a number > 0\n"
                         "    E [stress]."));
-  EXPECT_THAT(text, HasSubstr("/Solver/Tolerance\n    double; default 1e-08; allowed is a number > 0 and < 1\n"));
+  EXPECT_THAT(text, HasSubstr("/Solver/Tolerance\n    double; default 1e-06; allowed is a number > 0 and < 1\n"));
   EXPECT_THAT(text, HasSubstr("/Morphing/Seeds/*/Shape\n    string; default Circle; allowed is \"Circle\" or \"Box\""));
 }
 

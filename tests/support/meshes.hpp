@@ -75,6 +75,54 @@ inline mesh::Mesh<2> grid(const Grid& g) {
   return mesh;
 }
 
+/// A whole mesh without the elements whose centroid lies where the predicate says, and without the nodes that only they
+/// had: a body with holes or notches. The ids stay contiguous; the groups keep what remains.
+template <class Predicate>
+mesh::Mesh<2> without(const mesh::Mesh<2>& whole, Predicate is_removed) {
+  mesh::Mesh<2> rest;
+  rest.block_names = whole.block_names;
+  std::vector<int> new_node(whole.n_nodes(), -1), new_element(whole.n_elements(), -1);
+  for (int e = 0; e < whole.n_elements(); ++e) {
+    if (is_removed(mesh::centroid(whole, e))) continue;
+    new_element[e] = rest.n_elements();
+    rest.types.push_back(whole.types[e]);
+    rest.blocks.push_back(whole.blocks[e]);
+    for (int k = 0; k < whole.n_corners(e); ++k) new_node[whole.corners_of(e)[k]] = 0;
+  }
+  for (int n = 0; n < whole.n_nodes(); ++n) {
+    if (new_node[n] < 0) continue;
+    new_node[n] = rest.n_nodes();
+    rest.coordinates.push_back(whole.coordinates[n]);
+    rest.node_ids.push_back(new_node[n]);
+  }
+  for (int e = 0; e < whole.n_elements(); ++e) {
+    if (new_element[e] < 0) continue;
+    for (int k = 0; k < whole.n_corners(e); ++k) rest.corners.push_back(new_node[whole.corners_of(e)[k]]);
+    rest.first_corner.push_back(static_cast<int>(rest.corners.size()));
+    rest.element_ids.push_back(new_element[e]);
+  }
+  for (const auto& [name, nodes] : whole.node_sets) {
+    auto& kept = rest.node_sets[name];
+    for (const int n : nodes) {
+      if (new_node[n] >= 0) kept.push_back(new_node[n]);
+    }
+  }
+  for (const auto& [name, sides] : whole.side_sets) {
+    auto& kept = rest.side_sets[name];
+    for (const auto& side : sides) {
+      if (new_element[side.element] >= 0) kept.push_back({new_element[side.element], side.side});
+    }
+  }
+  rest.node_owners.assign(rest.n_nodes(), 0);
+  rest.element_owners.assign(rest.n_elements(), 0);
+  rest.n_owned_nodes = rest.n_nodes();
+  rest.n_owned_elements = rest.n_elements();
+  rest.n_global_nodes = rest.n_nodes();
+  rest.n_global_elements = rest.n_elements();
+  mesh::find_boundary(rest);
+  return rest;
+}
+
 /// The grid, distributed over the ranks.
 inline mesh::Mesh<2> distributed_grid(const base::Comm& comm, const Grid& g, double halo_width) {
   return mesh::distribute(comm, comm.getRank() == 0 ? grid(g) : mesh::Mesh<2>{}, halo_width);

@@ -12,13 +12,17 @@ MaterialPoints<dim>::MaterialPoints(const mesh::Mesh<dim>& mesh, int points_per_
   for (int e = 0; e < mesh.n_elements(); ++e) {
     references_.push_back(&reference_element<dim>(mesh.types[e], points_per_direction));
     const auto& reference = *references_.back();
+    first_gradient_.push_back(gradients_.size());
     for (int q = 0; q < reference.n_points; ++q) {
       base::Point<dim> x = base::Point<dim>::Zero();
       for (int k = 0; k < reference.n_corners; ++k) x += reference.shape[q](k) * mesh.coordinates[mesh.corners_of(e)[k]];
-      const double volume = reference.weights[q] * jacobian(e, q).determinant();
+      const Eigen::Matrix<double, dim, dim> j = jacobian(e, q);
+      const double volume = reference.weights[q] * j.determinant();
       PERIMORPH_ASSERT(volume > 0., "element {} has volume {} at point {}", mesh.element_ids[e], volume, q);
       positions_.push_back(x);
       weights_.push_back(volume);
+      const ShapeGradients<dim> gradients = j.inverse().transpose() * reference.gradients[q];
+      gradients_.insert(gradients_.end(), gradients.data(), gradients.data() + gradients.size());
     }
     first_.push_back(static_cast<int>(weights_.size()));
   }
@@ -31,12 +35,6 @@ Eigen::Matrix<double, dim, dim> MaterialPoints<dim>::jacobian(int element, int q
   const int* corners = mesh_.corners_of(element);
   for (int k = 0; k < gradients.cols(); ++k) j += mesh_.coordinates[corners[k]] * gradients.col(k).transpose();
   return j;
-}
-
-template <int dim>
-ShapeGradients<dim> MaterialPoints<dim>::gradients(int element, int q) const {
-  const Eigen::Matrix<double, dim, dim> to_physical = jacobian(element, q).inverse().transpose();
-  return to_physical * references_[element]->gradients[q];
 }
 
 template class MaterialPoints<2>;

@@ -73,6 +73,7 @@ void Body<dim>::apply_load(double load_factor) {
     all_u_->scale(load_factor / load_factor_);
   }
   load_factor_ = load_factor;
+  forces_are_current_ = false;
 }
 
 template <int dim>
@@ -98,6 +99,7 @@ void Body<dim>::update_topology() {
   std::vector<Point<dim>> coordinates;
   for (int n = 0; n < dofs_->n_owned_nodes(); ++n) coordinates.push_back(mesh_.coordinates[dofs_->reference_node(n)]);
   solver_.set_matrix(stiffness_->matrix(), solvers::rigid_body_modes<dim>(*stiffness_->matrix(), coordinates));
+  forces_are_current_ = false;
   ++counts_.topologies;
 }
 
@@ -178,8 +180,10 @@ void Body<dim>::solve() {
   constexpr double negligible = 1e-4;
 
   loads_ = problem_.loads.forces(mesh_, points_, *dofs_, load_factor_);
-  prescribe_displacements();
-  update_forces();
+  if (!forces_are_current_) {
+    prescribe_displacements();
+    update_forces();
+  }
   for (int pass = 0;; ++pass) {
     const Balance balance = this->balance();
     const double target = options_.tolerance * std::max(balance.reaction, negligible * largest_reaction_);
@@ -218,6 +222,7 @@ void Body<dim>::update_forces() {
   const auto timer = profile_.measure(Phase::residual);
   at_points_ = operators::displacements_at_points(model(), displacement());
   force_ = operators::internal_force(model(), displacement(), at_points_);
+  forces_are_current_ = true;
 }
 
 /// Fills the residual (loads - internal forces where nothing is prescribed); reactions are the rest, and the loads.
@@ -259,6 +264,7 @@ GlobalId Body<dim>::break_bonds() {
   if (std::isinf(problem_.critical_stretch)) return 0;
   const auto broken = bonds_.break_overstretched(at_points_, problem_.critical_stretch, classes_);
   stiffness_->subtract(broken);
+  operators::subtract_bond_forces(model(), broken, at_points_, force_);
   dissipated_ += base::sum(*comm_, operators::bond_energy(model(), broken, at_points_));
   const auto is_counted_here = [&](std::size_t b) { return bonds_.pair(bonds_.pair_of(b)).first < mesh_.n_owned_elements; };
   const GlobalId n_broken =

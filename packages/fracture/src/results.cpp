@@ -1,9 +1,6 @@
 #include "perimorph/fracture/results.hpp"
 
 #include <fmt/ranges.h>
-#include <spdlog/sinks/sink.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -148,13 +145,12 @@ std::vector<base::Point<dim>> gather_points(const base::Comm& comm, const std::v
 
 template <int dim>
 Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder,
-                      base::Log log, base::Profile& profile)
+                      Voice voice, base::Profile& profile)
     : comm_(comm),
-      log_(std::move(log)),
+      voice_(std::move(voice)),
       profile_(profile),
       output_every_(input.output_every),
-      last_increment_(input.increments),
-      shows_progress_(comm->getRank() == 0 && isatty(STDOUT_FILENO) != 0 && log_->sinks().front()->level() <= spdlog::level::info) {
+      last_increment_(input.increments) {
   for (const auto& group : input.reactions) {
     for (int c = 0; c < dim; ++c) reactions_.push_back({group + "_" + axis_names[c], group, c});
   }
@@ -244,16 +240,16 @@ void Results<dim>::measure_reactions(int increment, const Body<dim>& body) {
 
 template <int dim>
 void Results<dim>::show_line(int increment, const Body<dim>& body) {
-  if (shows_progress_) fmt::print("\r\033[K");
+  if (voice_.shows_progress) fmt::print("\r\033[K");
   const auto largest = std::max_element(reactions_.begin(), reactions_.end(),
                                         [](const auto& a, const auto& b) { return std::abs(a.peak) < std::abs(b.peak); });
   if (increment == 1) {
-    log_->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load",
+    voice_.log->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load",
                reactions_.empty() ? "reaction" : "reaction " + largest->column, "new broken", "all broken", "DGFE", "unknowns", "solves",
                "its", "seconds");
   }
   const auto& counts = body.counts();
-  log_->info("{:>6} {:>9.4g} {:>22.6g} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9.2f}", increment, body.load_factor(),
+  voice_.log->info("{:>6} {:>9.4g} {:>22.6g} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9.2f}", increment, body.load_factor(),
              reactions_.empty() ? 0. : largest->force, counts.broken_bonds - broken_before_, counts.broken_bonds,
              counts.dgfe_elements, counts.unknowns, counts.linear_solves, counts.cg_iterations,
              profile_.elapsed() - seconds_before_);
@@ -261,7 +257,7 @@ void Results<dim>::show_line(int increment, const Body<dim>& body) {
 
 template <int dim>
 void Results<dim>::show_progress(int increment, const Body<dim>& body) {
-  if (!shows_progress_) return;
+  if (!voice_.shows_progress) return;
   constexpr int width = 30;
   const int done = width * (increment - 1) / last_increment_;
   fmt::print("\r\033[K[{:=<{}}{:>{}}] step {}/{}: {} solves, {} broken bonds", ">", done + 1, "", width - done, increment,
@@ -271,19 +267,19 @@ void Results<dim>::show_progress(int increment, const Body<dim>& body) {
 
 template <int dim>
 void Results<dim>::summarize(const Body<dim>& body) {
-  if (shows_progress_) fmt::print("\r\033[K");
+  if (voice_.shows_progress) fmt::print("\r\033[K");
   const auto& counts = body.counts();
-  log_->info("");
-  log_->info("broken bonds     {}{}", counts.broken_bonds,
+  voice_.log->info("");
+  voice_.log->info("broken bonds     {}{}", counts.broken_bonds,
              first_break_ > 0 ? fmt::format(", the first in step {}", first_break_) : "");
-  log_->info("damaged elements {}, discontinuous {}", counts.damaged_elements, counts.dgfe_elements);
-  log_->info("linear solves    {} with {} iterations; {} topologies", total_solves_, total_iterations_, counts.topologies);
+  voice_.log->info("damaged elements {}, discontinuous {}", counts.damaged_elements, counts.dgfe_elements);
+  voice_.log->info("linear solves    {} with {} iterations; {} topologies", total_solves_, total_iterations_, counts.topologies);
   for (const auto& r : reactions_) {
     if (std::abs(r.peak) > 0.) {
-      log_->info("reaction {:<24} peak {:>12.6g} in step {}, last {:>12.6g}", r.column, r.peak, r.peak_increment, r.force);
+      voice_.log->info("reaction {:<24} peak {:>12.6g} in step {}, last {:>12.6g}", r.column, r.peak, r.peak_increment, r.force);
     }
   }
-  log_->info("\n{}", profile_.table());
+  voice_.log->info("\n{}", profile_.table());
 }
 
 template <int dim>

@@ -54,11 +54,11 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
 }
 
 template <int dim>
-void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, bool quiet) {
+void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk) {
   base::Profile profile;
   make_folder(*comm, folder);
   base::Log log;
-  base::on_all_ranks(*comm, [&] { log = base::make_log(*comm, quiet, folder + "/run.log"); });
+  base::on_all_ranks(*comm, [&] { log = base::make_log(*comm, talk == Talk::quiet, folder + "/run.log"); });
   try {
     write_resolved(*comm, input, folder + "/resolved.xml");
     const auto problem = make_problem<dim>(input);
@@ -68,7 +68,7 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     }();
     describe(*comm, input, problem, mesh, log);
     Body<dim> body(comm, mesh, problem, body_options(input), profile);
-    Results<dim> results(comm, input, folder, log, profile);
+    Results<dim> results(comm, input, folder, {log, talk == Talk::progress && comm->getRank() == 0}, profile);
     run_adaptive_loop(body, results, {input.increments, input.max_damage_iterations, input.max_zone_growths});
     results.summarize(body);
   } catch (const std::exception& error) {
@@ -110,10 +110,10 @@ double peak_memory() {
 }
 
 template <int dim>
-void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, bool quiet) {
+void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk) {
   base::Profile profile;
   const TemporaryFolder folder;
-  const auto log = base::make_log(*comm, quiet);
+  const auto log = base::make_log(*comm, talk == Talk::quiet);
   const auto problem = make_problem<dim>(input);
   const auto mesh = load_mesh(*comm, input, problem, folder.path.string());
   log->info("{}", listing(input.resolved, ""));
@@ -142,10 +142,10 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, boo
 
 }  // namespace
 
-void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, bool quiet) { check_in<2>(comm, input, quiet); }
+void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk) { check_in<2>(comm, input, talk); }
 
-void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, bool quiet) {
-  run_in<2>(comm, input, folder, quiet);
+void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk) {
+  run_in<2>(comm, input, folder, talk);
 }
 
 }  // namespace perimorph::fracture

@@ -181,7 +181,7 @@ void declare_solver(ParameterList& root) {
   ParameterList& solver = section(root, "Solver", "Conjugate gradients with an algebraic multigrid preconditioner.");
   solver.set("Operator", "CRS", "How the coupled stiffness is held: \"CRS\" is an assembled sparse matrix.",
              one_of(words(operator_forms)));
-  solver.set("Tolerance", 1e-8,
+  solver.set("Tolerance", 1e-6,
              "Residual over the norm of the reaction forces [-]. Too loose, and bonds break in another order.",
              between(0., 1.));
   solver.set("Maximum Iterations", 500, "Of conjugate gradients in one solution.", count());
@@ -261,9 +261,9 @@ ParameterList case_schema() {
 
 std::string describe_schema() {
   return "Every parameter of a case file. A path such as /Solver/Tolerance is\n"
-         "    <ParameterList name=\"Solver\"> <Parameter name=\"Tolerance\" type=\"double\" value=\"1e-8\"/> "
+         "    <ParameterList name=\"Solver\"> <Parameter name=\"Tolerance\" type=\"double\" value=\"1e-6\"/> "
          "</ParameterList>\n"
-         "in the file, and --set \"Solver/Tolerance=1e-8\" on the command line; * is a name of your choice.\n"
+         "in the file, and --set \"Solver/Tolerance=1e-6\" on the command line; * is a name of your choice.\n"
          "Units are in brackets; any consistent set will do.\n\n" +
          describe_list(case_schema(), "");
 }

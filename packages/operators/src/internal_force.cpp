@@ -38,6 +38,24 @@ void add_local_forces(const CoupledModel<dim>& model, const double* u, std::vect
   }
 }
 
+/// Pull of a bond on its first point, [force].
+template <int dim>
+Point<dim> pull(const CoupledModel<dim>& model, std::size_t bond, int i, int j, const std::vector<Point<dim>>& u) {
+  const Point<dim> xi = model.points.position(j) - model.points.position(i);
+  return model.spring(bond, i, j) * xi.dot(u[j] - u[i]) * xi;
+}
+
+/// Spreads a force at a point of an element to the owned nodes among its corners.
+template <int dim>
+void spread(const CoupledModel<dim>& model, int element, int q, const Point<dim>& at_point, std::vector<double>& force) {
+  const int* nodes = model.dofs.nodes_of(element);
+  const auto& shape = model.points.shape(element, q);
+  for (int k = 0; k < model.mesh.n_corners(element); ++k) {
+    if (nodes[k] >= model.dofs.n_owned_nodes()) continue;
+    for (int c = 0; c < dim; ++c) force[nodes[k] * dim + c] += shape[k] * at_point[c];
+  }
+}
+
 template <int dim>
 std::vector<Point<dim>> bond_forces(const CoupledModel<dim>& model, const std::vector<Point<dim>>& u) {
   std::vector<Point<dim>> force(u.size(), Point<dim>::Zero());
@@ -47,10 +65,9 @@ std::vector<Point<dim>> bond_forces(const CoupledModel<dim>& model, const std::v
     for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
       if (model.bonds.broken(b)) continue;
       const int i = first_a + model.bonds.first_end(b), j = first_b + model.bonds.second_end(b);
-      const Point<dim> xi = model.points.position(j) - model.points.position(i);
-      const Point<dim> pull = model.spring(b, i, j) * xi.dot(u[j] - u[i]) * xi;
-      force[i] -= pull;
-      force[j] += pull;
+      const Point<dim> f = pull(model, b, i, j, u);
+      force[i] -= f;
+      force[j] += f;
     }
   }
   return force;
@@ -83,16 +100,21 @@ std::vector<double> internal_force(const CoupledModel<dim>& model, const double*
   const auto at_point = bond_forces(model, at_points);
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (!model.bonds.is_active(e) || model.bonds.pairs_of(e).empty()) continue;
-    const int* nodes = model.dofs.nodes_of(e);
-    for (int q = 0; q < model.points.count(e); ++q) {
-      const auto& shape = model.points.shape(e, q);
-      for (int k = 0; k < model.mesh.n_corners(e); ++k) {
-        if (nodes[k] >= model.dofs.n_owned_nodes()) continue;
-        for (int c = 0; c < dim; ++c) force[nodes[k] * dim + c] += shape[k] * at_point[model.points.first(e) + q][c];
-      }
-    }
+    for (int q = 0; q < model.points.count(e); ++q) spread(model, e, q, at_point[model.points.first(e) + q], force);
   }
   return force;
+}
+
+template <int dim>
+void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std::size_t>& broken,
+                          const std::vector<Point<dim>>& at_points, std::vector<double>& force) {
+  for (const auto b : broken) {
+    const auto [first, second] = model.bonds.pair(model.bonds.pair_of(b));
+    const int qa = model.bonds.first_end(b), qb = model.bonds.second_end(b);
+    const Point<dim> f = pull(model, b, model.points.first(first) + qa, model.points.first(second) + qb, at_points);
+    spread(model, first, qa, f, force);
+    spread<dim>(model, second, qb, -f, force);
+  }
 }
 
 template std::vector<Point<2>> displacements_at_points<2>(const CoupledModel<2>&, const double*);
@@ -100,4 +122,8 @@ template std::vector<Point<3>> displacements_at_points<3>(const CoupledModel<3>&
 template std::vector<double> internal_force<2>(const CoupledModel<2>&, const double*, const std::vector<Point<2>>&);
 template std::vector<double> internal_force<3>(const CoupledModel<3>&, const double*, const std::vector<Point<3>>&);
 
+template void subtract_bond_forces<2>(const CoupledModel<2>&, const std::vector<std::size_t>&,
+                                      const std::vector<Point<2>>&, std::vector<double>&);
+template void subtract_bond_forces<3>(const CoupledModel<3>&, const std::vector<std::size_t>&,
+                                      const std::vector<Point<3>>&, std::vector<double>&);
 }  // namespace perimorph::operators

@@ -15,7 +15,7 @@ void LinearSolver::set_matrix(const Teuchos::RCP<Matrix>& matrix, const NearNull
   near_null_space_ = near_null_space;
   multigrid_.reset();
   condition_ = Condition::missing;
-  dropping_ = Dropping::weak_couplings;
+  smoothing_ = Smoothing::fast;
 }
 
 int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solution, double target) {
@@ -30,14 +30,14 @@ int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solutio
   Outcome outcome = iterate(right_hand_side, solution, relative_tolerance);
   if (!outcome.converged) {
     condition_ = Condition::missing;
-    dropping_ = Dropping::none;
+    smoothing_ = Smoothing::robust;
     prepare();
     solution.putScalar(0.);
     outcome = iterate(right_hand_side, solution, relative_tolerance);
   }
   if (!outcome.converged) {
     throw base::ComputationError(fmt::format(
-        "conjugate gradients did not reduce the residual by {:.1e} within {} iterations, with a fresh preconditioner{}{}",
+        "conjugate gradients did not reduce the residual by {:.1e} within {} iterations, with a fresh, robust preconditioner{}{}",
         relative_tolerance, outcome.iterations, outcome.trouble.empty() ? "" : ": ", outcome.trouble));
   }
   judge(outcome.iterations, relative_tolerance);
@@ -52,7 +52,7 @@ void LinearSolver::prepare() {
     if (refresh) {
       multigrid_->refresh();
     } else {
-      multigrid_ = std::make_unique<Multigrid>(matrix_, near_null_space_, parameters_.muelu, dropping_);
+      multigrid_ = std::make_unique<Multigrid>(matrix_, near_null_space_, parameters_.muelu, smoothing_);
       fresh_rate_ = 0.;
     }
   } catch (const std::exception& error) {

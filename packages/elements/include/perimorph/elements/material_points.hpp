@@ -28,7 +28,10 @@ class MaterialPoints {
   const CornerValues& shape(int element, int q) const { return references_[element]->shape[q]; }
 
   /// dN/dx at the q-th point of an element, (dim, n_corners), [1/length].
-  ShapeGradients<dim> gradients(int element, int q) const;
+  Eigen::Map<const Eigen::Matrix<double, dim, Eigen::Dynamic>> gradients(int element, int q) const {
+    const int n = references_[element]->n_corners;
+    return {gradients_.data() + first_gradient_[element] + static_cast<std::size_t>(q) * dim * n, dim, n};
+  }
 
   /// Global id of a point: the same on every rank and for every partition.
   base::GlobalId global_id(int element, int q) const {
@@ -41,6 +44,8 @@ class MaterialPoints {
   std::vector<int> first_;
   std::vector<base::Point<dim>> positions_;
   std::vector<double> weights_;
+  std::vector<std::size_t> first_gradient_;  ///< position of an element's first gradients
+  std::vector<double> gradients_;
 
   Eigen::Matrix<double, dim, dim> jacobian(int element, int q) const;
 };

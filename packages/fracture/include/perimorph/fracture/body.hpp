@@ -107,6 +107,7 @@ class Body {
   double load_factor_ = 0.;
   double largest_reaction_ = 0.;
   bool load_is_new_ = false;
+  bool forces_are_current_ = false;  ///< at_points_ and force_ belong to the displacement, bonds and topology
   Counts counts_;
   double dissipated_ = 0., external_work_ = 0.;
 

@@ -10,19 +10,25 @@
 
 namespace perimorph::fracture {
 
+/// Where a run speaks.
+struct Voice {
+  base::Log log;
+  bool shows_progress;  ///< a line on the terminal, overwritten in place, while an increment goes on
+};
+
 /// Everything a run leaves behind: a row of history.csv and a line on the terminal per accepted increment, and the
 /// Exodus series. Rank 0 writes what it gathers from all.
 template <int dim>
 class Results {
  public:
   /// Collective. @throws UserError if the folder cannot be written.
-  Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, base::Log log,
+  Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Voice voice,
           base::Profile& profile);
 
   /// Records an increment; fields too if they are due, a bond broke or it is the last. Collective.
   void accept(int increment, const Body<dim>& body);
 
-  /// On a terminal: what the current increment is at, overwritten in place. Local.
+  /// What the current increment is at. Local.
   void show_progress(int increment, const Body<dim>& body);
 
   /// The closing lines: peak and last reaction, counts, profile. Local.
@@ -39,10 +45,9 @@ class Results {
   };
 
   Teuchos::RCP<const base::Comm> comm_;
-  base::Log log_;
+  Voice voice_;
   base::Profile& profile_;
   int output_every_, last_increment_;
-  bool shows_progress_;
   std::vector<Reaction> reactions_;
   std::unique_ptr<io::History> history_;
   std::unique_ptr<io::ExodusSeries<dim>> series_;

@@ -7,12 +7,15 @@
 
 namespace perimorph::fracture {
 
+/// What a run says while it goes on: nothing, a line per increment, or also a progress bar (for a terminal).
+enum class Talk { quiet, lines, progress };
+
 /// Runs a case from the first increment to the last; results go to the folder, which is made. Collective.
 /// @throws base::UserError, base::ComputationError, base::Bug: the same on all ranks.
-void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, bool quiet);
+void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk);
 
 /// Checks a case and its mesh and prints the resolved parameters, the material's derived constants and an estimate of
 /// unknowns, bonds and memory. Collective. @throws as run.
-void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, bool quiet);
+void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk);
 
 }  // namespace perimorph::fracture

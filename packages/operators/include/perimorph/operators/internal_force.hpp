@@ -17,4 +17,9 @@ template <int dim>
 std::vector<double> internal_force(const CoupledModel<dim>& model, const double* u,
                                    const std::vector<base::Point<dim>>& at_points);
 
+/// Takes the forces of newly broken bonds out of an internal force. Local.
+template <int dim>
+void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std::size_t>& broken,
+                          const std::vector<base::Point<dim>>& at_points, std::vector<double>& force);
+
 }  // namespace perimorph::operators

@@ -24,13 +24,13 @@ class LinearSolver {
   void set_matrix(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space);
 
   /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Returns the iterations. Collective.
-  /// If the iteration breaks down or does not converge, it is tried again once with a safer, rebuilt preconditioner.
+  /// If the iteration breaks down or does not converge, it is tried again once with a rebuilt, robust preconditioner.
   /// @throws ComputationError if that fails too.
   int solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 
  private:
   enum class Condition { missing, aged, good };
-  using Dropping = Multigrid::Dropping;
+  using Smoothing = Multigrid::Smoothing;
 
   SolverParameters parameters_;
   base::Profile& profile_;
@@ -39,7 +39,7 @@ class LinearSolver {
   std::unique_ptr<Multigrid> multigrid_;
   Condition condition_ = Condition::missing;
   bool refreshed_ = false;  ///< since the last rebuild
-  Dropping dropping_ = Dropping::weak_couplings;
+  Smoothing smoothing_ = Smoothing::fast;
 
   void prepare();
   struct Outcome {

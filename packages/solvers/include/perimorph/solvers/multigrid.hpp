@@ -23,16 +23,16 @@ struct NearNullSpace {
 template <int dim>
 NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Point<dim>>& coordinates);
 
-/// Smoothed-aggregation multigrid (MueLu) for elasticity: Chebyshev smoothing, dropping of weak couplings, symmetric
-/// Gauss-Seidel on the coarsest level (KLU2 is wrong on more than one rank). Made for one matrix pattern.
+/// Smoothed-aggregation multigrid (MueLu) for elasticity, with symmetric Gauss-Seidel on the coarsest level (KLU2 is wrong
+/// on more than one rank). Made for one matrix pattern.
 class Multigrid {
  public:
-  /// Which couplings aggregates follow; none dropped is slower and safer.
-  enum class Dropping { weak_couplings, none };
+  /// Chebyshev polynomials (fast), or symmetric Gauss-Seidel (robust), which cannot make the preconditioner indefinite.
+  enum class Smoothing { fast, robust };
 
   /// Sets it up. @param overrides parameters of MueLu that replace or add to ours. Collective.
   Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space,
-            const Teuchos::ParameterList& overrides, Dropping dropping);
+            const Teuchos::ParameterList& overrides, Smoothing smoothing);
   ~Multigrid();
 
   /// New values in the same matrix: keeps aggregates and prolongators ("RP" reuse), renews the rest. Collective.

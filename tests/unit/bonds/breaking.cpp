@@ -1,0 +1,135 @@
+// When bonds break (WHL19, eq. 6 and 7), which never do, and what damage they leave.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "bonded_body.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using morphing::ElementClass;
+
+constexpr double critical_stretch = 0.02;
+
+class Breaking : public testing::Test {
+ protected:
+  BondedBody body{grid({7, 6, 7., 6., Point2::Zero(), 0.1}), 2.3, 0.6};
+  std::vector<ElementClass> classes = std::vector<ElementClass>(body.mesh.n_elements(), ElementClass::pd);
+
+  void SetUp() override { body.grow({Zone<2>::everything()}); }
+
+  /// Displacement of every point: (F - 1) x.
+  std::vector<Point2> deformed(const Eigen::Matrix2d& gradient) const {
+    std::vector<Point2> u;
+    for (int i = 0; i < body.points.size(); ++i) u.push_back(gradient * body.points.position(i) - body.points.position(i));
+    return u;
+  }
+  std::vector<Point2> widened(double stretch) const { return deformed((1. + stretch) * Eigen::Matrix2d::Identity()); }
+
+  std::size_t n_between_elements() const {
+    std::size_t n = 0;
+    body.for_each_bond([&](int p, std::size_t) { n += body.bonds.pair(p).first != body.bonds.pair(p).second; });
+    return n;
+  }
+};
+
+TEST_F(Breaking, NoBondBreaksJustBelowTheCriticalStretch) {
+  // 1e-9 of the stretch is far above the rounding of (1 + s)^2, 1e-16 / 0.02.
+  EXPECT_TRUE(body.bonds.break_overstretched(widened(critical_stretch * (1. - 1e-9)), critical_stretch, classes).empty());
+}
+
+TEST_F(Breaking, EveryBondBetweenElementsBreaksJustAboveTheCriticalStretch) {
+  const auto broken = body.bonds.break_overstretched(widened(critical_stretch * (1. + 1e-9)), critical_stretch, classes);
+
+  EXPECT_EQ(broken.size(), n_between_elements());
+  EXPECT_TRUE(std::is_sorted(broken.begin(), broken.end()));
+}
+
+TEST_F(Breaking, ThoseBreakWhoseDeformedLengthReachesTheCriticalOne) {
+  Eigen::Matrix2d gradient;
+  gradient << 1.03, 0.01, -0.02, 0.99;
+  std::vector<std::size_t> expected;
+  body.for_each_bond([&](int p, std::size_t b) {
+    const auto [i, j] = body.ends(p, b);
+    const Point2 xi = body.points.position(j) - body.points.position(i);
+    const bool overstretched = (gradient * xi).norm() / xi.norm() - 1. >= critical_stretch;
+    if (overstretched && body.bonds.pair(p).first != body.bonds.pair(p).second) expected.push_back(b);
+  });
+  ASSERT_GT(expected.size(), 100u);
+  ASSERT_LT(expected.size(), n_between_elements() - 100u);
+
+  EXPECT_EQ(body.bonds.break_overstretched(deformed(gradient), critical_stretch, classes), expected);
+}
+
+TEST_F(Breaking, ARotationAndACompressionBreakNothing) {
+  EXPECT_TRUE(body.bonds.break_overstretched(deformed(Eigen::Rotation2D<double>(0.7).toRotationMatrix()), critical_stretch, classes).empty());
+  EXPECT_TRUE(body.bonds.break_overstretched(widened(-0.5), critical_stretch, classes).empty());
+}
+
+TEST_F(Breaking, ABrokenBondStaysBrokenAndIsReportedOnce) {
+  const auto broken = body.bonds.break_overstretched(widened(0.03), critical_stretch, classes);
+  ASSERT_FALSE(broken.empty());
+
+  EXPECT_TRUE(body.bonds.break_overstretched(widened(0.), critical_stretch, classes).empty());
+  EXPECT_TRUE(body.bonds.break_overstretched(widened(0.04), critical_stretch, classes).empty());
+
+  for (const auto b : broken) EXPECT_TRUE(body.bonds.broken(b));
+}
+
+TEST_F(Breaking, BondsInsideOneElementNeverBreak) {
+  body.bonds.break_overstretched(widened(1.), critical_stretch, classes);
+
+  body.for_each_bond([&](int p, std::size_t b) {
+    EXPECT_EQ(body.bonds.broken(b), body.bonds.pair(p).first != body.bonds.pair(p).second);
+  });
+}
+
+TEST_F(Breaking, BondsThatTouchAnElementOutsideThePeridynamicClassNeverBreak) {
+  for (std::size_t e = 0; e < classes.size(); e += 3) classes[e] = e % 2 == 0 ? ElementClass::morph : ElementClass::fe;
+
+  const auto broken = body.bonds.break_overstretched(widened(1.), critical_stretch, classes);
+
+  ASSERT_FALSE(broken.empty());
+  body.for_each_bond([&](int p, std::size_t b) {
+    const auto [first, second] = body.bonds.pair(p);
+    const bool may_break = first != second && classes[first] == ElementClass::pd && classes[second] == ElementClass::pd;
+    EXPECT_EQ(body.bonds.broken(b), may_break);
+  });
+}
+
+TEST_F(Breaking, DamageIsTheShareOfTheFamilysVolumeThatIsLost) {
+  std::vector<double> family(body.points.size(), 0.), lost(body.points.size(), 0.);
+  std::vector<char> is_damaged(body.mesh.n_elements(), 0);
+
+  body.for_each_bond([&](int p, std::size_t b) {
+    const auto [i, j] = body.ends(p, b);
+    family[i] += body.points.weight(j);
+    family[j] += body.points.weight(i);
+    const auto [first, second] = body.bonds.pair(p);
+    if (first == second || b % 5 != 0 || first > 20) return;
+    body.bonds.set_broken(p, b);
+    lost[i] += body.points.weight(j);
+    lost[j] += body.points.weight(i);
+    is_damaged[first] = is_damaged[second] = 1;
+  });
+
+  for (int i = 0; i < body.points.size(); ++i) EXPECT_NEAR(body.bonds.damage(i), lost[i] / family[i], 1e-14);
+  for (int e = 0; e < body.mesh.n_elements(); ++e) EXPECT_EQ(body.bonds.is_damaged(e), is_damaged[e] != 0);
+}
+
+TEST_F(Breaking, DamageIsZeroWhereNothingBrokeAndBelowOneWhereEverythingBetweenElementsDid) {
+  EXPECT_EQ(body.bonds.damage(0), 0.);
+  EXPECT_FALSE(body.bonds.is_damaged(0));
+
+  body.bonds.break_overstretched(widened(1.), critical_stretch, classes);
+
+  for (int i = 0; i < body.points.size(); ++i) {
+    EXPECT_GT(body.bonds.damage(i), 0.7);  // the element's own three other points hold it together
+    EXPECT_LT(body.bonds.damage(i), 1.);
+  }
+}
+
+}  // namespace
+}  // namespace perimorph::tests
