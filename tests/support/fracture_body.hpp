@@ -33,8 +33,7 @@ struct Specimen {
 inline fracture::Problem<2> make_problem(const Specimen& specimen) {
   constexpr double youngs_modulus = 1000.;
   constexpr auto model = materials::ElasticModel::plane_stress;
-  const auto c0 =
-      materials::calibrate<2>(model, youngs_modulus, specimen.characteristic_length, specimen.horizon);
+  const auto c0 = materials::calibrate<2>(model, youngs_modulus, specimen.characteristic_length, specimen.horizon);
   return {materials::elasticity_tensor<2>(model, youngs_modulus, 1. / 3.),
           c0,
           specimen.critical_stretch,
@@ -58,13 +57,13 @@ inline fracture::BodyOptions make_options(const Specimen& specimen) {
 }
 
 /// A body and all that must outlive it.
-struct TestBody {
+struct SpecimenBody {
   mesh::Mesh<2> mesh;
   fracture::Problem<2> problem;
   base::Profile profile;
   fracture::Body<2> body;
 
-  explicit TestBody(const Specimen& specimen, const Teuchos::RCP<const base::Comm>& comm = Tpetra::getDefaultComm())
+  explicit SpecimenBody(const Specimen& specimen, const Teuchos::RCP<const base::Comm>& comm = Tpetra::getDefaultComm())
       : mesh(mesh::distribute(*comm, specimen.whole, specimen.horizon)),
         problem(make_problem(specimen)),
         body(comm, mesh, problem, make_options(specimen), profile) {}

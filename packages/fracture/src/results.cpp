@@ -1,11 +1,13 @@
 #include "perimorph/fracture/results.hpp"
 
 #include <fmt/ranges.h>
+
+#include <Teuchos_XMLParameterListHelpers.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <numeric>
-#include <set>
+#include <sstream>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/operators/fields.hpp"
@@ -32,6 +34,15 @@ typename io::ExodusSeries<dim>::Names variable_names(std::vector<std::string> gl
   for (int c = 0; c < dim; ++c) names.nodal.push_back(std::string("displacement_") + axis_names[c]);
   names.element.insert(names.element.end(), stress_names<dim>().begin(), stress_names<dim>().end());
   return names;
+}
+
+/// A parameter list as lines of XML.
+std::vector<std::string> lines_of(const Teuchos::ParameterList& list) {
+  std::stringstream text;
+  Teuchos::writeParameterListToXmlOStream(list, text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
 }
 
 /// FE, MORPH, PD: continuous elements by their class; DGFE: peridynamic ones that have been split off.
@@ -166,8 +177,7 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
     columns.insert(columns.end(), globals.begin(), globals.end());
     history_ = std::make_unique<io::History>((std::filesystem::path(folder) / "history.csv").string(), columns);
     series_ = std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
-                                                      input.title, variable_names<dim>(globals),
-                                                      std::vector<std::string>{"case: " + input.file});
+                                                      input.title, variable_names<dim>(globals), lines_of(input.resolved));
   });
 }
 
@@ -241,16 +251,20 @@ void Results<dim>::measure_reactions(int increment, const Body<dim>& body) {
 template <int dim>
 void Results<dim>::show_line(int increment, const Body<dim>& body) {
   if (voice_.shows_progress) fmt::print("\r\033[K");
-  const auto largest = std::max_element(reactions_.begin(), reactions_.end(),
-                                        [](const auto& a, const auto& b) { return std::abs(a.peak) < std::abs(b.peak); });
+  if (increment == 1 && !reactions_.empty()) {  // the one to follow: the largest at first
+    const auto largest = std::max_element(reactions_.begin(), reactions_.end(), [](const auto& a, const auto& b) {
+      return std::abs(a.force) < std::abs(b.force);
+    });
+    shown_reaction_ = static_cast<int>(largest - reactions_.begin());
+  }
+  const std::string shown = reactions_.empty() ? "" : reactions_[shown_reaction_].column;
   if (increment == 1) {
-    voice_.log->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load",
-               reactions_.empty() ? "reaction" : "reaction " + largest->column, "new broken", "all broken", "DGFE", "unknowns", "solves",
-               "its", "seconds");
+    voice_.log->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load", "reaction " + shown,
+                     "new broken", "all broken", "DGFE", "unknowns", "solves", "its", "seconds");
   }
   const auto& counts = body.counts();
   voice_.log->info("{:>6} {:>9.4g} {:>22.6g} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9.2f}", increment, body.load_factor(),
-             reactions_.empty() ? 0. : largest->force, counts.broken_bonds - broken_before_, counts.broken_bonds,
+             reactions_.empty() ? 0. : reactions_[shown_reaction_].force, counts.broken_bonds - broken_before_, counts.broken_bonds,
              counts.dgfe_elements, counts.unknowns, counts.linear_solves, counts.cg_iterations,
              profile_.elapsed() - seconds_before_);
 }

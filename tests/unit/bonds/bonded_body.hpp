@@ -29,7 +29,8 @@ struct BondedBody {
   bonds::BondFamilies<2> bonds;
 
   /// tau0 = 100; without zones there are no bonds yet: grow() makes them.
-  BondedBody(const mesh::Mesh<2>& whole_mesh, double horizon, double characteristic_length, std::vector<Segment> cracks = {})
+  BondedBody(const mesh::Mesh<2>& whole_mesh, double horizon, double characteristic_length,
+             std::vector<Segment> cracks = {})
       : whole(whole_mesh),
         pre_cracks(std::move(cracks)),
         c0{100., characteristic_length, horizon},
@@ -69,7 +70,8 @@ inline double orientation(const Point2& a, const Point2& b, const Point2& c) {
   return (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0];
 }
 
-/// Whether the segments a-b and c-d meet; touching counts. Coordinates are of order 1 to 10: an area below 1e-11 is zero.
+/// Whether the segments a-b and c-d meet; touching counts. Coordinates are of order 1 to 10: an area below 1e-11 is
+/// zero.
 inline bool segments_meet(const Point2& a, const Point2& b, const Segment& s) {
   constexpr double zero = 1e-11;
   const auto apart = [](double one, double other) {

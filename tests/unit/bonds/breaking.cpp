@@ -23,7 +23,8 @@ class Breaking : public testing::Test {
   /// Displacement of every point: (F - 1) x.
   std::vector<Point2> deformed(const Eigen::Matrix2d& gradient) const {
     std::vector<Point2> u;
-    for (int i = 0; i < body.points.size(); ++i) u.push_back(gradient * body.points.position(i) - body.points.position(i));
+    for (int i = 0; i < body.points.size(); ++i)
+      u.push_back(gradient * body.points.position(i) - body.points.position(i));
     return u;
   }
   std::vector<Point2> widened(double stretch) const { return deformed((1. + stretch) * Eigen::Matrix2d::Identity()); }
@@ -37,11 +38,13 @@ class Breaking : public testing::Test {
 
 TEST_F(Breaking, NoBondBreaksJustBelowTheCriticalStretch) {
   // 1e-9 of the stretch is far above the rounding of (1 + s)^2, 1e-16 / 0.02.
-  EXPECT_TRUE(body.bonds.break_overstretched(widened(critical_stretch * (1. - 1e-9)), critical_stretch, classes).empty());
+  EXPECT_TRUE(
+      body.bonds.break_overstretched(widened(critical_stretch * (1. - 1e-9)), critical_stretch, classes).empty());
 }
 
 TEST_F(Breaking, EveryBondBetweenElementsBreaksJustAboveTheCriticalStretch) {
-  const auto broken = body.bonds.break_overstretched(widened(critical_stretch * (1. + 1e-9)), critical_stretch, classes);
+  const auto broken =
+      body.bonds.break_overstretched(widened(critical_stretch * (1. + 1e-9)), critical_stretch, classes);
 
   EXPECT_EQ(broken.size(), n_between_elements());
   EXPECT_TRUE(std::is_sorted(broken.begin(), broken.end()));
@@ -64,7 +67,10 @@ TEST_F(Breaking, ThoseBreakWhoseDeformedLengthReachesTheCriticalOne) {
 }
 
 TEST_F(Breaking, ARotationAndACompressionBreakNothing) {
-  EXPECT_TRUE(body.bonds.break_overstretched(deformed(Eigen::Rotation2D<double>(0.7).toRotationMatrix()), critical_stretch, classes).empty());
+  EXPECT_TRUE(
+      body.bonds
+          .break_overstretched(deformed(Eigen::Rotation2D<double>(0.7).toRotationMatrix()), critical_stretch, classes)
+          .empty());
   EXPECT_TRUE(body.bonds.break_overstretched(widened(-0.5), critical_stretch, classes).empty());
 }
 

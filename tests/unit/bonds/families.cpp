@@ -58,8 +58,8 @@ class BondFamilies : public testing::TestWithParam<Example> {
 
   void expect_plain_bonds(const std::vector<char>& carries) const {
     const auto is_active = active();
-    const BondList expected = plain_bonds(
-        body, [&](int e, int f) { return (is_active[e] || is_active[f]) && (carries[e] || carries[f]); });
+    const BondList expected =
+        plain_bonds(body, [&](int e, int f) { return (is_active[e] || is_active[f]) && (carries[e] || carries[f]); });
     const BondList actual = body.list();
     EXPECT_EQ(actual.size(), body.bonds.n_bonds()) << "a bond is there twice";
     ASSERT_EQ(actual.size(), expected.size());
@@ -111,9 +111,8 @@ TEST_P(BondFamilies, KeepTheirBrokenBondsWhenTheyGrow) {
 
   body.grow({Zone<2>::ball({5., 4.}, 1., 2.5)});
 
-  body.for_each_bond([&](int p, std::size_t b) {
-    EXPECT_EQ(body.bonds.broken(b), broken.count(body.global_ends(p, b)) == 1);
-  });
+  body.for_each_bond(
+      [&](int p, std::size_t b) { EXPECT_EQ(body.bonds.broken(b), broken.count(body.global_ends(p, b)) == 1); });
 }
 
 TEST_P(BondFamilies, ListTheElementWithTheLowerGlobalIdFirst) {

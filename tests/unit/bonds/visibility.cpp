@@ -10,9 +10,9 @@ namespace {
 constexpr double horizon = 3.05, characteristic_length = 0.6;  // spacing 1
 
 struct Census {
-  int across = 0;         ///< pairs within a horizon whose segment crosses the gap
-  int bonds_across = 0;   ///< bonds among them
-  int around = 0;         ///< other pairs with an end on either side of the gap's line
+  int across = 0;        ///< pairs within a horizon whose segment crosses the gap
+  int bonds_across = 0;  ///< bonds among them
+  int around = 0;        ///< other pairs with an end on either side of the gap's line
   int bonds_around = 0;
 };
 
@@ -141,7 +141,8 @@ TEST(Visibility, ABondThroughTheTipOfACrackIsCut) {
 }
 
 TEST(Visibility, ATriangleBlocksThatABondPiercesInSpace) {
-  const std::vector<mesh::CrackFacet<3>> crack = {{base::Point<3>(0, 0, 0), base::Point<3>(1, 0, 0), base::Point<3>(0, 1, 0)}};
+  const std::vector<mesh::CrackFacet<3>> crack = {
+      {base::Point<3>(0, 0, 0), base::Point<3>(1, 0, 0), base::Point<3>(0, 1, 0)}};
   const auto blocks = [&](double x, double y, double bottom, double top) {
     return bonds::Visibility<3>::blocks(crack, {x, y, bottom}, {x, y, top});
   };

@@ -49,6 +49,7 @@ class Results {
   base::Profile& profile_;
   int output_every_, last_increment_;
   std::vector<Reaction> reactions_;
+  int shown_reaction_ = 0;  ///< in the lines on the terminal
   std::unique_ptr<io::History> history_;
   std::unique_ptr<io::ExodusSeries<dim>> series_;
   base::GlobalId broken_before_ = 0, topology_written_ = 0;

@@ -12,7 +12,7 @@ namespace perimorph::io {
 template <int dim>
 struct ExodusModel {
   struct Block {
-    std::string name;  ///< "<block>_FE", "<block>_MORPH", "<block>_DGFE"
+    std::string name;  ///< for example "<block>_FE", "<block>_MORPH", "<block>_DGFE"
     mesh::ElementType type;
     std::vector<int> connectivity;            ///< 0-based nodes of this model, n_corners(type) an element
     std::vector<base::GlobalId> element_ids;  ///< global ids of the reference mesh, 0-based

@@ -1,0 +1,308 @@
+"""The program itself, from a case file and a mesh to files, messages and exit status.
+
+    driver.py PERIMORPH MPIEXEC
+"""
+
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import netCDF4
+import numpy
+
+PERIMORPH, MPIEXEC = sys.argv[1:3]
+del sys.argv[1:3]
+
+N = 12  # elements along each side of a square plate, size 1
+
+
+def mesh():
+    """gmsh's format 2.2: block "body", the right edge "right", and the two left corners."""
+    names = ['0 1 "lower"', '0 2 "upper"', '1 3 "right"', '2 4 "body"']
+    node = lambda i, j: j * (N + 1) + i + 1
+    nodes = [f"{node(i, j)} {i} {j} 0" for j in range(N + 1) for i in range(N + 1)]
+    elements = [f"15 2 1 1 {node(0, 0)}", f"15 2 2 2 {node(0, N)}"]
+    elements += [f"1 2 3 3 {node(N, j)} {node(N, j + 1)}" for j in range(N)]
+    elements += [
+        f"3 2 4 4 {node(i, j)} {node(i + 1, j)} {node(i + 1, j + 1)} {node(i, j + 1)}" for j in range(N) for i in range(N)
+    ]
+    numbered = [f"{k} {element}" for k, element in enumerate(elements, 1)]
+    section = lambda name, lines: [f"${name}", str(len(lines)), *lines, f"$End{name}"]
+    return "\n".join(
+        ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
+        + section("PhysicalNames", names)
+        + section("Nodes", nodes)
+        + section("Elements", numbered)
+        + [""]
+    )
+
+
+# A slit from the left edge to the middle; the corners pull it open. The first bonds break in the third increment.
+CASE = """<ParameterList name="plate">
+  <ParameterList name="Mesh"><Parameter name="File" type="string" value="plate.msh"/></ParameterList>
+  <ParameterList name="Material">
+    <Parameter name="Young's Modulus" type="double" value="1000"/>
+    <Parameter name="Poisson's Ratio" type="double" value="0.3333"/>
+    <Parameter name="Elastic Model" type="string" value="Plane Stress"/>
+    <Parameter name="Critical Stretch" type="double" value="0.05"/>
+  </ParameterList>
+  <ParameterList name="Peridynamics">
+    <Parameter name="Horizon" type="double" value="2"/>
+    <Parameter name="Characteristic Length" type="double" value="0.2"/>
+  </ParameterList>
+  <ParameterList name="Morphing">
+    <ParameterList name="Seeds">
+      <ParameterList name="tip">
+        <Parameter name="Center" type="Array(double)" value="{5, 6}"/>
+        <Parameter name="Inner Radius" type="double" value="3.5"/>
+        <Parameter name="Outer Radius" type="double" value="4"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Pre-Cracks">
+    <ParameterList name="slit"><Parameter name="Points" type="Array(double)" value="{0, 6, 5, 6}"/></ParameterList>
+  </ParameterList>
+  <ParameterList name="Boundary Conditions">
+    <ParameterList name="Displacements">
+      <ParameterList name="hold x">
+        <Parameter name="Group" type="string" value="right"/>
+        <Parameter name="Component" type="string" value="x"/>
+      </ParameterList>
+      <ParameterList name="hold y">
+        <Parameter name="Group" type="string" value="right"/>
+        <Parameter name="Component" type="string" value="y"/>
+      </ParameterList>
+      <ParameterList name="pull down">
+        <Parameter name="Group" type="string" value="lower"/>
+        <Parameter name="Component" type="string" value="y"/>
+        <Parameter name="Rate" type="double" value="-0.2"/>
+      </ParameterList>
+      <ParameterList name="pull up">
+        <Parameter name="Group" type="string" value="upper"/>
+        <Parameter name="Component" type="string" value="y"/>
+        <Parameter name="Rate" type="double" value="0.2"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Loading"><Parameter name="Increments" type="int" value="3"/></ParameterList>
+</ParameterList>
+"""
+
+
+def text_of(variable):
+    return [str(name) for name in netCDF4.chartostring(variable[:])]
+
+
+class Driver(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.output = self.folder / "out"
+        (self.folder / "plate.msh").write_text(mesh())
+        self.case = self.folder / "plate.xml"
+        self.case.write_text(CASE)
+
+    def perimorph(self, *arguments, ranks=1):
+        command = [MPIEXEC, "-n", str(ranks), PERIMORPH, *map(str, arguments)]
+        return subprocess.run(command, capture_output=True, text=True, timeout=60)
+
+    def run_case(self, *options, ranks=1):
+        return self.perimorph("run", self.case, "--output", self.output, *options, ranks=ranks)
+
+    def history(self):
+        with open(self.output / "history.csv", newline="") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+    def series(self):
+        return sorted(self.output.glob("plate.e*"))
+
+
+class Runs(Driver):
+    def test_ends_with_status_0_and_everything_on_disk(self):
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                run = self.run_case(ranks=ranks)
+
+                self.assertEqual(run.returncode, 0, run.stderr)
+                for name in ["history.csv", "resolved.xml", "run.log", "plate.e"]:
+                    self.assertTrue((self.output / name).is_file(), name)
+                rows = self.history()
+                self.assertEqual([float(row["increment"]) for row in rows], [1, 2, 3])
+                self.assertEqual([float(row["load_factor"]) for row in rows], [1, 2, 3])
+                self.assertEqual([float(row["broken_bonds"]) for row in rows[:2]], [0, 0])
+                self.assertGreater(float(rows[2]["broken_bonds"]), 0)
+                self.assertGreater(float(rows[2]["dgfe_elements"]), 0)
+                self.assertGreater(float(rows[2]["unknowns"]), float(rows[1]["unknowns"]))
+                self.assertIn("first in step 3", (self.output / "run.log").read_text())
+
+    def test_reactions_balance_and_are_proportional_until_the_first_break(self):
+        self.assertEqual(self.run_case().returncode, 0)
+        rows = [{key: float(value) for key, value in row.items()} for row in self.history()]
+
+        reaction = lambda row, group: row[f"reaction_{group}_y"]
+        self.assertGreater(reaction(rows[0], "upper"), 0)
+        for row in rows:
+            forces = [reaction(row, group) for group in ["upper", "lower", "right"]]
+            # The solver's tolerance, 1e-8 of the reactions, on some hundred free nodes.
+            self.assertLess(abs(sum(forces)), 1e-6 * abs(forces[0]))
+        # Seven digits are written.
+        self.assertAlmostEqual(reaction(rows[1], "upper") / reaction(rows[0], "upper"), 2, places=5)
+        self.assertLess(reaction(rows[2], "upper"), 3 * reaction(rows[0], "upper"))
+
+    def test_the_exodus_series_reads_back(self):
+        self.assertEqual(self.run_case(ranks=2).returncode, 0)
+        rows = self.history()
+
+        times = []
+        for part in self.series():
+            with netCDF4.Dataset(part) as file:
+                times += list(file["time_whole"][:])
+                elements = sum(len(d) for name, d in file.dimensions.items() if name.startswith("num_el_in_blk"))
+                self.assertEqual(elements, N * N)
+                self.assertEqual(len(file.dimensions["num_nodes"]) * 2, float(rows[len(times) - 1]["unknowns"]))
+                self.assertEqual(text_of(file["name_nod_var"]), ["displacement_x", "displacement_y"])
+                for name in ["alpha", "damage", "class", "energy", "stress_xx", "stress_yy", "stress_xy"]:
+                    self.assertIn(name, text_of(file["name_elem_var"]))
+                for name in ["load_factor", "broken_bonds", "elastic_energy", "reaction_upper_y"]:
+                    self.assertIn(name, text_of(file["name_glo_var"]))
+        self.assertEqual(times, [1, 2, 3])
+        self.assertGreater(len(self.series()), 1)
+
+        with netCDF4.Dataset(self.series()[0]) as first, netCDF4.Dataset(self.series()[-1]) as last:
+            self.assertEqual(text_of(first["eb_names"]), ["body_FE", "body_MORPH", "body_PD"])
+            self.assertIn("body_DGFE", text_of(last["eb_names"]))
+            height = first["coordy"][:]
+            self.assertEqual((height.min(), height.max()), (0, N))
+            u = first["vals_nod_var2"][1]
+            self.assertAlmostEqual(u.max(), 0.4)  # the corners: rate 0.2, second increment
+            self.assertAlmostEqual(u.min(), -0.4)
+
+    def test_two_ranks_write_the_history_and_fields_of_one(self):
+        self.assertEqual(self.run_case().returncode, 0)
+        one, displacement = self.history(), self.displacement_by_place()
+        self.assertEqual(self.run_case(ranks=2).returncode, 0)
+
+        for row, other in zip(one, self.history(), strict=True):
+            for name in ["broken_bonds", "damaged_elements", "dgfe_elements", "unknowns"]:
+                self.assertEqual(row[name], other[name])
+            self.assertAlmostEqual(float(row["reaction_upper_y"]) / float(other["reaction_upper_y"]), 1, places=6)
+        # 0.4 at the corners; the solver's tolerance, 1e-8, times a condition number of some hundreds.
+        numpy.testing.assert_allclose(self.displacement_by_place(), displacement, atol=1e-5)
+
+    def displacement_by_place(self):
+        """Displacement in the second increment at all nodes, sorted by place (the slit's faces by displacement)."""
+        with netCDF4.Dataset(self.series()[0]) as file:
+            columns = [file[name][:] for name in ["coordx", "coordy"]] + [file[f"vals_nod_var{c}"][1] for c in [1, 2]]
+        return numpy.array(sorted(zip(*(numpy.round(c, 7) for c in columns))))
+
+    def test_overrides_of_the_command_line_reach_the_run_and_the_resolved_case(self):
+        run = self.run_case("--set", "Loading/Increments=1", "--set", "Solver/Tolerance=1e-6", "--quiet")
+
+        self.assertEqual((run.returncode, run.stdout), (0, ""), run.stderr)
+        self.assertEqual(len(self.history()), 1)
+        parameters = {p.get("name"): p.get("value") for p in xml.etree.ElementTree.parse(self.output / "resolved.xml").iter()}
+        self.assertEqual((parameters["Increments"], float(parameters["Tolerance"])), ("1", 1e-6))
+
+    def test_a_resolved_case_runs_to_the_same_history(self):
+        self.assertEqual(self.run_case("--set", "Loading/Increments=1").returncode, 0)
+        first = self.history()
+        (self.folder / "again.xml").write_text((self.output / "resolved.xml").read_text())
+
+        run = self.perimorph("run", self.folder / "again.xml", "--output", self.output)
+
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(self.history()[0]["elastic_energy"], first[0]["elastic_energy"])
+
+
+class UserErrors(Driver):
+    """Status 2 on any number of ranks, with a message that says where and what, printed once."""
+
+    def assert_refused(self, run, *pieces):
+        self.assertEqual(run.returncode, 2, run.stderr)
+        for piece in pieces:
+            self.assertEqual(run.stderr.count(piece), 1, run.stderr)
+        self.assertNotIn("bug", run.stderr)
+
+    def test_a_case_file_that_is_not_there(self):
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.assert_refused(self.perimorph("run", "nowhere.xml", ranks=ranks), "perimorph: nowhere.xml")
+
+    def test_a_mesh_that_is_not_there(self):
+        (self.folder / "plate.msh").unlink()
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.assert_refused(self.run_case(ranks=ranks), "plate.msh")
+
+    def test_a_group_that_the_mesh_does_not_have(self):
+        self.case.write_text(CASE.replace('value="right"', 'value="rihgt"', 1))
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.assert_refused(
+                    self.run_case("--set", "Output/Reactions={upper}", ranks=ranks),
+                    "/Boundary Conditions/Displacements/hold x/Group",
+                    'no group of nodes called "rihgt"',
+                    'it has "lower", "right", "upper" - did you mean "right"?',
+                )
+
+    def test_a_poissons_ratio_that_bonds_cannot_have(self):
+        self.case.write_text(CASE.replace("0.3333", "0.2"))
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.assert_refused(self.run_case(ranks=ranks), "/Material/Poisson's Ratio", "0.2")
+
+    def test_a_command_that_does_not_exist(self):
+        self.assertEqual(self.perimorph("rnu", self.case).returncode, 2)
+
+
+class ComputationErrors(Driver):
+    """Status 3, and everything up to the last accepted increment on disk."""
+
+    def test_a_solver_that_does_not_converge(self):
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                run = self.run_case("--set", "Solver/Maximum Iterations=1", ranks=ranks)
+
+                self.assertEqual(run.returncode, 3, run.stderr)
+                self.assertIn("conjugate gradients", run.stderr)
+                self.assertIn("conjugate gradients", (self.output / "run.log").read_text())
+                self.assertEqual(self.history(), [])
+                self.assertTrue((self.output / "resolved.xml").is_file())
+
+    def test_a_limit_in_the_third_increment_leaves_the_first_two(self):
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                run = self.run_case("--set", "Loading/Maximum Damage Iterations=1", ranks=ranks)
+
+                self.assertEqual(run.returncode, 3, run.stderr)
+                self.assertIn("increment 3: more than 1 solves; /Loading/Maximum Damage Iterations", run.stderr)
+                self.assertEqual([float(row["increment"]) for row in self.history()], [1, 2])
+                with netCDF4.Dataset(self.output / "plate.e") as file:
+                    self.assertEqual(list(file["time_whole"][:]), [1, 2])
+
+
+class OtherCommands(Driver):
+    def test_check_says_what_the_case_would_cost_and_leaves_nothing(self):
+        run = self.perimorph("check", self.case)
+
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # 13 x 13 nodes and 5 more along the slit: its mouth and four inside; the tip is closed.
+        for piece in ["144 elements, 174 nodes", "348 unknowns", "bonds", "memory"]:
+            self.assertIn(piece, run.stdout)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["plate.msh", "plate.xml"])
+
+    def test_params_prints_every_parameter(self):
+        run = self.perimorph("params")
+
+        self.assertEqual(run.returncode, 0)
+        for path in ["/Material/Young's Modulus", "/Loading/Increments", "/Morphing/Seeds/*/Center", "/Output/Every"]:
+            self.assertIn(f"\n{path}\n", run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

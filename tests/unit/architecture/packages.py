@@ -1,0 +1,208 @@
+"""The packages depend on each other one way only, in the order of PERIMORPH_PACKAGES, and libraries stay where they belong.
+
+    packages.py SOURCE_FOLDER     checks the source, then that every rule finds a planted violation in a copy of it
+"""
+
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(sys.argv.pop()) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[3]
+
+LINEAR_ALGEBRA = re.compile(r"(Tpetra|Belos|MueLu|Ifpack2|Amesos2)")
+# Where headers of linear algebra may stand; a list names the only ones.
+LINEAR_ALGEBRA_IN = {
+    "discretization": None,
+    "operators": None,
+    "solvers": None,
+    "fracture": ["Tpetra_Vector", "Tpetra_Import"],
+}
+EXODUS = re.compile(r"(exodusII|netcdf)")
+EXODUS_IN = {"io": None}
+
+
+def ordered_packages(source):
+    text = (source / "packages/CMakeLists.txt").read_text()
+    return re.search(r"set\(PERIMORPH_PACKAGES ([^)]*)\)", text).group(1).split()
+
+
+def includes(file):
+    """(line number, header) of each #include."""
+    for number, line in enumerate(file.read_text().splitlines(), 1):
+        found = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+        if found:
+            yield number, found.group(1)
+
+
+def code_of(folder):
+    return sorted(f for f in folder.rglob("*") if f.suffix in {".hpp", ".cpp", ".h", ".c", ".cc"})
+
+
+def include_violations(source):
+    order = ordered_packages(source)
+    for package in order:
+        allowed = order[: order.index(package) + 1]
+        for file in code_of(source / "packages" / package):
+            for line, header in includes(file):
+                parts = header.split("/")
+                if parts[0] == "perimorph" and parts[1] not in allowed:
+                    yield f"{file}:{line}: {package} includes {header}, which does not stand before it"
+                elif ".." in parts:
+                    yield f"{file}:{line}: {header} goes round the packages' include folders"
+
+
+def depends_violations(source):
+    order = ordered_packages(source)
+    for package in order:
+        file = source / "packages" / package / "CMakeLists.txt"
+        text = re.sub(r"#.*", "", file.read_text())
+        depends = re.search(r"\bDEPENDS\b([^)]*?)(\bLIBRARIES\b|\bSOURCES\b|\))", text)
+        for other in depends.group(1).split() if depends else []:
+            if other not in order[: order.index(package)]:
+                yield f"{file}: {package} depends on {other}, which does not stand before it"
+        for other in re.findall(r"\bperimorph_(\w+)", text):
+            if other in order and other != package:
+                yield f"{file}: {package} links perimorph_{other} past DEPENDS"
+
+
+def undeclared_violations(source):
+    """What a package includes, it DEPENDS on."""
+    for package in ordered_packages(source):
+        text = (source / "packages" / package / "CMakeLists.txt").read_text()
+        depends = re.search(r"\bDEPENDS\b([^)]*?)(\bLIBRARIES\b|\bSOURCES\b|\))", text)
+        declared = (depends.group(1).split() if depends else []) + [package]
+        for file in code_of(source / "packages" / package):
+            for line, header in includes(file):
+                parts = header.split("/")
+                if parts[0] == "perimorph" and parts[1] not in declared:
+                    yield f"{file}:{line}: {header} is included, but {package} does not DEPEND on {parts[1]}"
+
+
+def library_violations(source, headers, homes):
+    for package in ordered_packages(source):
+        for file in code_of(source / "packages" / package):
+            for line, header in includes(file):
+                if not headers.match(header):
+                    continue
+                only = homes.get(package, [])
+                stem = header.rsplit(".", 1)[0].removesuffix("_fwd").removesuffix("_decl")
+                if only is not None and stem not in only:
+                    yield f"{file}:{line}: {header} does not belong into {package}"
+
+
+def folder_violations(source):
+    order = ordered_packages(source)
+    for folder in sorted(p for p in (source / "packages").iterdir() if p.is_dir()):
+        if folder.name not in order:
+            yield f"{folder}: not named in PERIMORPH_PACKAGES"
+    for package in order:
+        folder = source / "packages" / package
+        for part in ["README.md", "CMakeLists.txt", f"include/perimorph/{package}", "src"]:
+            if not (folder / part).exists():
+                yield f"{folder}: has no {part}"
+
+
+def violations(source):
+    return [
+        *include_violations(source),
+        *depends_violations(source),
+        *undeclared_violations(source),
+        *library_violations(source, LINEAR_ALGEBRA, LINEAR_ALGEBRA_IN),
+        *library_violations(source, EXODUS, EXODUS_IN),
+        *folder_violations(source),
+    ]
+
+
+class Packages(unittest.TestCase):
+    def test_depend_one_way_and_keep_libraries_where_they_belong(self):
+        found = violations(SOURCE)
+        self.assertFalse(found, "\n" + "\n".join(found))
+
+    def test_have_code_to_check(self):
+        self.assertGreaterEqual(len(ordered_packages(SOURCE)), 11)
+        self.assertGreaterEqual(sum(1 for _ in code_of(SOURCE / "packages")), 50)
+
+
+class PlantedViolations(unittest.TestCase):
+    """Each rule finds what is planted in a copy of the source, and nothing else is found there."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.copy = pathlib.Path(self.folder.name)
+        shutil.copytree(SOURCE / "packages", self.copy / "packages")
+        self.before = set(violations(self.copy))
+
+    def append(self, path, line):
+        file = self.copy / "packages" / path
+        file.write_text(file.read_text() + line + "\n")
+
+    def replace(self, path, old, new):
+        file = self.copy / "packages" / path
+        text = file.read_text()
+        self.assertIn(old, text)
+        file.write_text(text.replace(old, new))
+
+    def assert_found(self, *pieces):
+        new = set(violations(self.copy)) - self.before
+        self.assertTrue(new, "nothing was found")
+        self.assertTrue(any(all(piece in text for piece in pieces) for text in new), new)
+
+    def test_an_include_against_the_order(self):
+        self.append("bonds/src/visibility.cpp", '#include "perimorph/operators/fields.hpp"')
+        self.assert_found("visibility.cpp", "bonds includes perimorph/operators/fields.hpp")
+
+    def test_an_include_against_the_order_in_angle_brackets(self):
+        self.append("mesh/include/perimorph/mesh/mesh.hpp", "  #  include <perimorph/elements/strain.hpp>")
+        self.assert_found("mesh.hpp", "mesh includes perimorph/elements/strain.hpp")
+
+    def test_an_include_of_a_folder_that_is_no_package(self):
+        self.append("io/src/history.cpp", '#include "perimorph/nowhere/strain.hpp"')
+        self.assert_found("history.cpp", "nowhere")
+
+    def test_an_include_round_the_include_folders(self):
+        self.append("io/src/history.cpp", '#include "../../fracture/src/rules.hpp"')
+        self.assert_found("history.cpp", "goes round")
+
+    def test_a_dependency_against_the_order(self):
+        self.replace("elements/CMakeLists.txt", "DEPENDS base mesh", "DEPENDS base mesh solvers")
+        self.assert_found("elements depends on solvers")
+
+    def test_a_link_past_depends(self):
+        self.replace("elements/CMakeLists.txt", "DEPENDS base mesh", "DEPENDS base mesh LIBRARIES perimorph_solvers")
+        self.assert_found("links perimorph_solvers")
+
+    def test_an_undeclared_dependency(self):
+        self.append("solvers/src/multigrid.cpp", '#include "perimorph/mesh/mesh.hpp"')
+        self.assert_found("solvers does not DEPEND on mesh")
+
+    def test_linear_algebra_outside_its_packages(self):
+        self.append("bonds/src/visibility.cpp", "#include <Tpetra_CrsMatrix.hpp>")
+        self.assert_found("Tpetra_CrsMatrix.hpp does not belong into bonds")
+
+    def test_other_linear_algebra_than_vectors_in_fracture(self):
+        self.append("fracture/src/body.cpp", "#include <BelosTypes.hpp>")
+        self.append("fracture/include/perimorph/fracture/body.hpp", "#include <Tpetra_CrsMatrix_fwd.hpp>")
+        self.assert_found("BelosTypes.hpp does not belong into fracture")
+        self.assert_found("Tpetra_CrsMatrix_fwd.hpp does not belong into fracture")
+
+    def test_exodus_outside_io(self):
+        self.append("mesh/src/gmsh.cpp", "#include <exodusII.h>")
+        self.assert_found("exodusII.h does not belong into mesh")
+
+    def test_a_package_without_readme(self):
+        readme = self.copy / "packages/bonds/README.md"
+        readme.unlink(missing_ok=True)
+        self.before -= {f"{readme.parent}: has no README.md"}
+        self.assert_found("bonds: has no README.md")
+
+    def test_a_package_that_is_not_named(self):
+        (self.copy / "packages/stray").mkdir()
+        self.assert_found("stray: not named")
+
+
+if __name__ == "__main__":
+    unittest.main()

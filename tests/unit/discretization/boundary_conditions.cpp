@@ -1,0 +1,110 @@
+#include "perimorph/discretization/boundary_conditions.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
+
+#include "perimorph/base/errors.hpp"
+#include "support/meshes.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using discretization::PrescribedComponent;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A distorted plate of 3 x 2, triangles or quadrilaterals.
+class BoundaryConditions : public testing::TestWithParam<bool> {
+ protected:
+  Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
+  mesh::Mesh<2> mesh = distributed_grid(*comm, {9, 8, 3., 2., Point2::Zero(), 0.2, GetParam()}, 0.5);
+  elements::MaterialPoints<2> points{mesh};
+
+  discretization::DofMap<2> dofs(bool all_split) const {
+    return {comm, mesh, discretization::corner_exchange(*comm, mesh), std::vector<char>(mesh.n_elements(), all_split)};
+  }
+  std::string error_of(const std::vector<PrescribedComponent>& conditions) const {
+    try {
+      discretization::Dirichlet<2>(*comm, mesh, conditions);
+    } catch (const base::UserError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  struct Resultant {
+    double x, y, moment;
+  };
+  Resultant resultant(const discretization::Loads<2>& loads, const discretization::DofMap<2>& map,
+                      double load_factor) const {
+    const auto forces = loads.forces(mesh, points, map, load_factor);
+    EXPECT_EQ(forces.size(), 2u * map.n_owned_nodes());
+    std::vector<double> sums(3, 0.);
+    for (int n = 0; n < map.n_owned_nodes(); ++n) {
+      const Point2& x = mesh.coordinates[map.reference_node(n)];
+      sums[0] += forces[2 * n];
+      sums[1] += forces[2 * n + 1];
+      sums[2] += x[0] * forces[2 * n + 1] - x[1] * forces[2 * n];
+    }
+    base::sum(*comm, sums);
+    return {sums[0], sums[1], sums[2]};
+  }
+};
+
+constexpr double rounding = 1e-12;  // sums of some hundred numbers of order 1 to 10
+
+TEST_P(BoundaryConditions, PrescribedValuesGrowWithTheLoadOnTheNodesOfTheirSetOnly) {
+  const discretization::Dirichlet<2> dirichlet(*comm, mesh,
+                                               {{"pull", "right", 0, {0.1, 0.5}}, {"hold", "left", 1, {0., 0.}}});
+  for (int n = 0; n < mesh.n_nodes(); ++n) {
+    const double x = mesh.coordinates[n][0];
+    EXPECT_EQ(dirichlet.prescribes(n, 0), x == 3.);
+    EXPECT_EQ(dirichlet.prescribes(n, 1), x == 0.);
+    EXPECT_DOUBLE_EQ(dirichlet.value(n, 0, 4.), x == 3. ? 0.9 : 0.);
+  }
+}
+
+TEST_P(BoundaryConditions, ContradictoryDisplacementsOfACommonNodeAreTheUsersMistakeOnAllRanks) {
+  const std::string error = error_of({{"pull", "right", 1, {0.1, 0.}}, {"hold", "top", 1, {0., 0.}}});
+  EXPECT_THAT(error, AllOf(HasSubstr("\"pull\" and \"hold\" prescribe different values"), HasSubstr("the y component"),
+                           HasSubstr("the node at (3, 2)")));
+}
+
+TEST_P(BoundaryConditions, ADifferentConstantPartContradictsToo) {
+  EXPECT_NE(error_of({{"a", "right", 0, {0.1, 0.}}, {"b", "top", 0, {0.1, 0.2}}}), "");
+}
+
+TEST_P(BoundaryConditions, EqualValuesOrOtherComponentsOfACommonNodeAreFine) {
+  EXPECT_EQ(error_of({{"a", "right", 0, {0.1, 0.}}, {"b", "top", 0, {0.1, 0.}}, {"c", "top", 1, {0.3, 0.}}}), "");
+}
+
+TEST_P(BoundaryConditions, TractionsSumToTheirResultantAtTheMiddleOfTheSide) {
+  const discretization::Loads<2> loads(
+      {{"top", {Point2(0.5, -2.), Point2(0.25, 1.)}}, {"right", {Point2(3., 0.), Point2::Zero()}}},
+      {Point2::Zero(), Point2::Zero()});
+  for (const bool split : {false, true}) {
+    const auto actual = resultant(loads, dofs(split), 2.);
+    // Top: (1.25, -3) over 3, at (1.5, 2). Right: (6, 0) over 2, at (3, 1).
+    EXPECT_NEAR(actual.x, 1.25 * 3. + 6. * 2., rounding);
+    EXPECT_NEAR(actual.y, -3. * 3., rounding);
+    EXPECT_NEAR(actual.moment, 1.5 * -9. - 2. * 3.75 - 1. * 12., rounding);
+  }
+}
+
+TEST_P(BoundaryConditions, BodyForceSumsToForceTimesAreaAtTheCentroid) {
+  const discretization::Loads<2> loads({}, {Point2(0.5, -1.), Point2(0., 0.25)});
+  for (const bool split : {false, true}) {
+    const auto actual = resultant(loads, dofs(split), 3.);
+    EXPECT_NEAR(actual.x, 1.5 * 6., rounding);
+    EXPECT_NEAR(actual.y, -2.75 * 6., rounding);
+    EXPECT_NEAR(actual.moment, 1.5 * -2.75 * 6. - 1. * 1.5 * 6., rounding);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, BoundaryConditions, testing::Bool(),
+                         [](const auto& p) { return p.param ? "Triangles" : "Quadrilaterals"; });
+
+}  // namespace
+}  // namespace perimorph::tests

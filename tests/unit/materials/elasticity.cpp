@@ -1,0 +1,53 @@
+#include "perimorph/materials/elasticity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+namespace perimorph::materials {
+namespace {
+
+constexpr double e = 200., nu = 0.3, rounding = 1e-12;  // of moduli of some hundreds
+
+TEST(ElasticityTensor, InPlaneStressUniaxialStressContractsByPoissonsRatio) {
+  const Eigen::Vector3d strain =
+      elasticity_tensor<2>(ElasticModel::plane_stress, e, nu).inverse() * Eigen::Vector3d(1., 0., 0.);
+  EXPECT_LT((strain - Eigen::Vector3d(1. / e, -nu / e, 0.)).norm(), rounding);
+}
+
+TEST(ElasticityTensor, InThreeDimensionsUniaxialStressContractsByPoissonsRatio) {
+  base::Voigt<3> stress = base::Voigt<3>::Zero(), expected = stress;
+  stress[0] = 1.;
+  expected.head<3>() << 1. / e, -nu / e, -nu / e;
+  EXPECT_LT((elasticity_tensor<3>(ElasticModel::three_dimensional, e, nu).inverse() * stress - expected).norm(),
+            rounding);
+}
+
+TEST(ElasticityTensor, InPlaneStrainIsTheThreeDimensionalOneWithoutStrainAcross) {
+  const auto solid = elasticity_tensor<3>(ElasticModel::three_dimensional, e, nu);
+  const auto plane = elasticity_tensor<2>(ElasticModel::plane_strain, e, nu);
+  const int kept[] = {0, 1, 5};  // xx, yy, xy
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(plane(i, j), solid(kept[i], kept[j]), rounding);
+  }
+}
+
+TEST(ElasticityTensor, ShearModulusActsOnEngineeringShear) {
+  EXPECT_NEAR(elasticity_tensor<2>(ElasticModel::plane_stress, e, nu)(2, 2), e / (2. * (1. + nu)), rounding);
+  EXPECT_NEAR(elasticity_tensor<3>(ElasticModel::three_dimensional, e, nu)(3, 3), e / (2. * (1. + nu)), rounding);
+}
+
+TEST(ElasticityTensor, AtTheBondBasedRatioHasTheSymmetryOfCentralForces) {
+  // C1122 = C1212 (Cauchy).
+  for (const auto model : {ElasticModel::plane_stress, ElasticModel::plane_strain}) {
+    const auto c = elasticity_tensor<2>(model, e, bond_based_poissons_ratio(model));
+    EXPECT_NEAR(c(0, 1), c(2, 2), rounding);
+    EXPECT_NEAR(c(0, 0), 3. * c(0, 1), rounding);
+  }
+  const auto c = elasticity_tensor<3>(ElasticModel::three_dimensional, e,
+                                      bond_based_poissons_ratio(ElasticModel::three_dimensional));
+  EXPECT_NEAR(c(0, 1), c(3, 3), rounding);
+}
+
+}  // namespace
+}  // namespace perimorph::materials

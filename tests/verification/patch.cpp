@@ -1,0 +1,186 @@
+// Patch tests: uniform strain, prescribed as linear displacement on the boundary of a square.
+
+#include <gtest/gtest.h>
+
+#include "support/fracture_body.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using Gradient = Eigen::Matrix2d;
+
+Gradient gradient(double xx, double xy, double yx, double yy) { return (Gradient() << xx, xy, yx, yy).finished(); }
+
+/// The boundary of the mesh moved by u = gradient x: node sets of one node each, as every node has its own value.
+Specimen patch(mesh::Mesh<2> whole, double horizon, double characteristic_length, const Gradient& gradient) {
+  Specimen specimen{{}, horizon, characteristic_length};
+  for (const int n : std::vector<int>(whole.node_sets.at("boundary"))) {
+    const std::string name = "boundary " + std::to_string(n);
+    whole.node_sets[name] = {n};
+    const Point2 u = gradient * whole.coordinates[n];
+    for (int c = 0; c < 2; ++c) specimen.displacements.push_back({name, name, c, {u[c], 0.}});
+  }
+  specimen.whole = std::move(whole);
+  return specimen;
+}
+
+/// Displacement at each node of the reference mesh: the mean of those of the nodes that stand on it.
+Eigen::Matrix2Xd mean_displacement(const fracture::Body<2>& body) {
+  const auto model = body.model();
+  Eigen::Matrix2Xd sum = Eigen::Matrix2Xd::Zero(2, model.mesh.n_nodes());
+  std::vector<int> count(model.mesh.n_nodes(), 0);
+  for (int n = 0; n < model.dofs.n_nodes(); ++n) {
+    const int reference = model.dofs.reference_node(n);
+    sum.col(reference) += Eigen::Map<const Point2>(body.displacement() + 2 * n);
+    ++count[reference];
+  }
+  for (int n = 0; n < sum.cols(); ++n) sum.col(n) /= count[n];
+  return sum;
+}
+
+/// Strain of an element at one of its points. @param u displacement of each corner's node
+template <class Displacement>
+Eigen::Matrix2d strain(const operators::CoupledModel<2>& model, int e, int q, Displacement u) {
+  const auto g = model.points.gradients(e, q);
+  Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
+  for (int k = 0; k < model.mesh.n_corners(e); ++k) h += u(k) * g.col(k).transpose();
+  return 0.5 * (h + h.transpose());
+}
+
+struct Errors {
+  double displacement = 0.;  ///< largest at a node, over the largest displacement
+  double strain = 0.;        ///< largest at a material point, over the strain; of the mean displacement, gaps included
+  double rms_strain = 0.;    ///< root of the mean square over material points, of each element's own displacement
+};
+
+Errors errors(const fracture::Body<2>& body, const Gradient& gradient) {
+  const auto model = body.model();
+  Errors errors;
+  double largest = 0.;
+  for (int n = 0; n < model.dofs.n_nodes(); ++n) {
+    const Point2 exact = gradient * model.mesh.coordinates[model.dofs.reference_node(n)];
+    const Point2 u = Eigen::Map<const Point2>(body.displacement() + 2 * n);
+    largest = std::max(largest, exact.norm());
+    errors.displacement = std::max(errors.displacement, (u - exact).norm());
+  }
+  errors.displacement /= largest;
+
+  const Eigen::Matrix2Xd mean = mean_displacement(body);
+  const Eigen::Matrix2d exact = 0.5 * (gradient + gradient.transpose());
+  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+    const auto mean_at = [&](int k) -> Point2 { return mean.col(model.mesh.corners_of(e)[k]); };
+    const auto own_at = [&](int k) -> Point2 {
+      return Eigen::Map<const Point2>(body.displacement() + 2 * model.dofs.nodes_of(e)[k]);
+    };
+    for (int q = 0; q < model.points.count(e); ++q) {
+      errors.strain = std::max(errors.strain, (strain(model, e, q, mean_at) - exact).norm() / exact.norm());
+      errors.rms_strain +=
+          (strain(model, e, q, own_at) - exact).squaredNorm() / exact.squaredNorm() / model.points.size();
+    }
+  }
+  errors.rms_strain = std::sqrt(errors.rms_strain);
+  return errors;
+}
+
+Errors solve(const Specimen& specimen, const Gradient& gradient) {
+  SpecimenBody test(specimen);
+  test.body.apply_load(1.);
+  test.body.update_topology();
+  test.body.solve();
+  return errors(test.body, gradient);
+}
+
+TEST(FinitePatch, LinearFieldIsReproducedToRounding) {
+  const Gradient any = gradient(0.01, 0.003, -0.002, -0.004);
+  for (const bool triangles : {false, true}) {
+    Specimen specimen = patch(grid({12, 12, 12., 12., Point2::Zero(), 0.2, triangles}), 3., 0.2, any);
+    specimen.tolerance = 1e-13;
+
+    const Errors actual = solve(specimen, any);
+
+    // The residual's tolerance times the condition number, some hundreds.
+    EXPECT_LT(actual.displacement, 1e-10);
+    EXPECT_LT(actual.strain, 1e-10);
+    EXPECT_LT(actual.rms_strain, 1e-10);
+  }
+}
+
+/// 24 x 24 squares, l = dx/5, horizon 3 dx, a peridynamic zone in the middle, its rim a little wider than a horizon.
+/// With 2 x 2 points the discrete sum of eq. 17 has C1111 1.1 % too high and C1122 4.3 % too low: these carry the
+/// errors below, which the width of the rim or the size of the zone change by a quarter of themselves at most.
+Errors solve_hybrid(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness, const Gradient& gradient) {
+  Specimen specimen = patch(grid({24, 24, 24., 24.}), 3., 0.2, gradient);
+  specimen.seeds = {Zone<2>::ball({12., 12.}, 5., 9.)};
+  specimen.discontinuous = discontinuous;
+  specimen.peridynamic_stiffness = stiffness;
+  return solve(specimen, gradient);
+}
+
+const Gradient uniaxial = gradient(0.01, 0., 0., 0.);
+const Gradient shear = gradient(0., 0.01, 0.01, 0.);
+
+TEST(HybridPatch, LinearFieldIsReproducedAcrossTheMorphingZoneWithDiscontinuousElements) {
+  const Errors actual = solve_hybrid(DiscontinuousElements::whole_zone, PeridynamicStiffness::dropped, uniaxial);
+
+  EXPECT_LT(actual.displacement, 0.0030);  // 0.0025; the prototype had 0.0024
+  EXPECT_LT(actual.strain, 0.034);         // 0.026; the prototype had 0.034
+  EXPECT_LT(actual.rms_strain, 0.018);     // 0.015: elements strain less than the gaps between them
+  EXPECT_GT(actual.strain, 1e-4);          // the zone is there
+}
+
+TEST(HybridPatch, LinearFieldIsReproducedAcrossTheMorphingZoneWithContinuousElements) {
+  const Errors actual = solve_hybrid(DiscontinuousElements::on_damage, PeridynamicStiffness::dropped, uniaxial);
+
+  EXPECT_LT(actual.displacement, 0.0030);  // 0.0026
+  EXPECT_LT(actual.strain, 0.024);         // 0.021, in the rim
+  EXPECT_LT(actual.rms_strain, 0.0094);    // 0.0081; the prototype had 0.0094
+  EXPECT_GT(actual.strain, 1e-4);
+}
+
+/// Under shear E0 - (discrete sum) is positive, and keeping it corrects the sum. Under extension it has a negative
+/// eigenvalue, is clipped, and cannot help.
+TEST(HybridPatch, StiffnessKeptInThePeridynamicZoneCorrectsShear) {
+  for (const auto discontinuous : {DiscontinuousElements::whole_zone, DiscontinuousElements::on_damage}) {
+    const Errors dropped = solve_hybrid(discontinuous, PeridynamicStiffness::dropped, shear);
+    const Errors kept = solve_hybrid(discontinuous, PeridynamicStiffness::kept, shear);
+
+    EXPECT_LT(kept.displacement, 0.5 * dropped.displacement);  // from 0.48 and 0.19 % to 0.08 %
+    EXPECT_LT(kept.strain, 0.4 * dropped.strain);              // from 6.1 and 3.8 % to 1.0 %
+    EXPECT_LT(kept.displacement, 0.001);
+    EXPECT_LT(kept.strain, 0.012);
+  }
+}
+
+TEST(HybridPatch, StiffnessKeptInThePeridynamicZoneDoesNoHarmUnderExtension) {
+  const Errors dropped = solve_hybrid(DiscontinuousElements::on_damage, PeridynamicStiffness::dropped, uniaxial);
+  const Errors kept = solve_hybrid(DiscontinuousElements::on_damage, PeridynamicStiffness::kept, uniaxial);
+
+  EXPECT_LT(kept.displacement, 1.01 * dropped.displacement);
+  EXPECT_LT(kept.strain, 1.01 * dropped.strain);
+}
+
+/// Disabled: Body::solve relates its target to the reactions, which vanish here, and gives up on the rounding that is
+/// left.
+TEST(HybridPatch, DISABLED_ARigidMotionCausesNoForces) {
+  const Gradient rotation = gradient(0., -0.01, 0.01, 0.);  // linearized
+  Specimen specimen = patch(grid({24, 24, 24., 24., Point2::Zero(), 0.15}), 3., 0.2, rotation);
+  specimen.seeds = {Zone<2>::ball({12., 12.}, 5., 9.)};
+  specimen.discontinuous = DiscontinuousElements::whole_zone;
+  SpecimenBody test(specimen);
+
+  test.body.apply_load(1.);
+  test.body.update_topology();
+  test.body.solve();
+
+  double largest = 0.;
+  const auto model = test.body.model();
+  for (int n = 0; n < model.dofs.n_nodes(); ++n) {
+    const Point2 exact = rotation * model.mesh.coordinates[model.dofs.reference_node(n)];
+    largest = std::max(largest, (Eigen::Map<const Point2>(test.body.displacement() + 2 * n) - exact).norm());
+  }
+  // The reactions are zero, and with them what the solver's tolerance relates to: 1e-6 of the motion is what is left.
+  EXPECT_LT(largest, 1e-6 * 0.01 * 24.);
+}
+
+}  // namespace
+}  // namespace perimorph::tests
