@@ -33,7 +33,7 @@ void BondFamilies<dim>::extend(const std::vector<int>& elements) {
   for (const int e : elements) {
     if (searched_[e]) continue;
     searched_[e] = 1;
-    const double reach = micromodulus_.horizon + radii_[e];
+    const double reach = (1. + 1e-6) * (micromodulus_.horizon + radii_[e]);
     const auto obstacles = visibility_.near(centroids_[e], reach);
     for (const int f : tree_->within(centroids_[e], reach + largest_radius_)) {
       const bool already_paired = searched_[f] && f != e;

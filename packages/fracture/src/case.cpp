@@ -119,6 +119,8 @@ void take_solution(Case& result, const ParameterList& list) {
   result.max_damage_iterations = loading.get<int>("Maximum Damage Iterations");
   result.max_zone_growths = loading.get<int>("Maximum Zone Growths");
   const ParameterList& solver = list.sublist("Solver");
+  result.preconditioner_matrix = value_of(preconditioner_matrices, word(solver, "Preconditioner Matrix"));
+  result.short_range_cut_off = solver.get<double>("Short-Range Cut-Off") * result.horizon;
   result.operator_form = value_of(operator_forms, word(solver, "Operator"));
   result.tolerance = solver.get<double>("Tolerance");
   result.max_cg_iterations = solver.get<int>("Maximum Iterations");

@@ -89,7 +89,9 @@ void check_groups(const Case& input, const mesh::Mesh<dim>& mesh) {
                 mistakes);
   }
   for (const auto& group : input.reactions) {
-    check_group(input, "/Output/Reactions", group, mesh.node_sets, "group of nodes", mistakes);
+    const bool is_checked = std::any_of(input.displacements.begin(), input.displacements.end(),
+                                        [&](const auto& d) { return d.group == group; });
+    if (!is_checked) check_group(input, "/Output/Reactions", group, mesh.node_sets, "group of nodes", mistakes);
   }
   if (!mistakes.empty()) throw base::UserError(mistakes.substr(1));
 }

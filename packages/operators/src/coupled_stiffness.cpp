@@ -11,8 +11,13 @@ namespace perimorph::operators {
 
 template <int dim>
 CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const discretization::Dirichlet<dim>& dirichlet,
-                                        const std::vector<char>& discontinuous)
-    : model_(model) {
+                                        const std::vector<char>& discontinuous, const BondSelection& selection)
+    : model_(model), selection_(selection), has_selected_bonds_(model.bonds.n_pairs(), 0) {
+  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
+    for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1) && !has_selected_bonds_[p]; ++b) {
+      has_selected_bonds_[p] = is_selected(model.bonds.pair(p), b);
+    }
+  }
   for (int n = 0; n < model.dofs.n_nodes(); ++n) {
     for (int c = 0; c < dim; ++c) fixed_.push_back(dirichlet.prescribes(model.dofs.reference_node(n), c));
   }
@@ -23,6 +28,11 @@ CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const di
   }
   add_springs();
   add_anchors(discontinuous);
+}
+
+template <int dim>
+Teuchos::RCP<Tpetra::Operator<double>> CoupledStiffness<dim>::linear_operator() const {
+  return matrix_;
 }
 
 /// A node is coupled to all nodes of its elements and of the elements that these have bonds with.
@@ -51,6 +61,7 @@ void CoupledStiffness<dim>::find_pattern() {
     for (const int e : elements_of[row]) {
       include(e);
       for (const int p : model_.bonds.pairs_of(e)) {
+        if (!has_selected_bonds_[p]) continue;
         const auto [first, second] = model_.bonds.pair(p);
         include(first == e ? second : first);
       }
@@ -167,12 +178,13 @@ void CoupledStiffness<dim>::add_springs() {
   std::vector<Block> at_points(model_.points.size(), Block::Zero());
   std::vector<Block> between;
   for (int p = 0; p < model_.bonds.n_pairs(); ++p) {
+    if (!has_selected_bonds_[p]) continue;
     const auto& pair = model_.bonds.pair(p);
     const int first_a = model_.points.first(pair.first), first_b = model_.points.first(pair.second);
     const int n_qb = model_.points.count(pair.second);
     between.assign(model_.points.count(pair.first) * n_qb, Block::Zero());
     for (auto b = model_.bonds.first_bond(p); b < model_.bonds.first_bond(p + 1); ++b) {
-      if (model_.bonds.broken(b)) continue;
+      if (model_.bonds.broken(b) || !is_selected(pair, b)) continue;
       const int i = first_a + model_.bonds.first_end(b), j = first_b + model_.bonds.second_end(b);
       const Block spring = spring_block(b, i, j);
       between[model_.bonds.first_end(b) * n_qb + model_.bonds.second_end(b)] = spring;
@@ -201,12 +213,14 @@ void CoupledStiffness<dim>::subtract(const std::vector<std::size_t>& broken) {
     std::fill_n(at_a.begin(), n_qa, Block::Zero());
     std::fill_n(at_b.begin(), n_qb, Block::Zero());
     for (; next < broken.size() && broken[next] < model_.bonds.first_bond(p + 1); ++next) {
+      if (!is_selected(pair, broken[next])) continue;
       const int qa = model_.bonds.first_end(broken[next]), qb = model_.bonds.second_end(broken[next]);
       const Block spring = spring_block(broken[next], first_a + qa, first_b + qb);
       between[qa * n_qb + qb] = -spring;
       at_a[qa] -= spring;
       at_b[qb] -= spring;
     }
+    if (!has_selected_bonds_[p]) continue;
     add_between(pair, between);
     add_at_points(pair.first, at_a.data());
     add_at_points(pair.second, at_b.data());
@@ -216,7 +230,13 @@ void CoupledStiffness<dim>::subtract(const std::vector<std::size_t>& broken) {
 template <int dim>
 typename CoupledStiffness<dim>::Block CoupledStiffness<dim>::spring_block(std::size_t bond, int i, int j) const {
   const base::Point<dim> xi = model_.points.position(j) - model_.points.position(i);
-  return model_.spring(bond, i, j) * xi * xi.transpose();
+  return selection_.scale * model_.spring(bond, i, j) * xi * xi.transpose();
+}
+
+template <int dim>
+base::Point<dim> CoupledStiffness<dim>::bond_vector(const bonds::ElementPair& pair, std::size_t bond) const {
+  return model_.points.position(model_.points.first(pair.second) + model_.bonds.second_end(bond)) -
+         model_.points.position(model_.points.first(pair.first) + model_.bonds.first_end(bond));
 }
 
 template <int dim>
@@ -238,6 +258,27 @@ void CoupledStiffness<dim>::add_anchors(const std::vector<char>& discontinuous) 
   }
 }
 
+template <int dim>
+BondSelection short_range(const CoupledModel<dim>& model, const base::Comm& comm, double reach) {
+  std::vector<double> sums = {0., 0.};  // all bonds, selected bonds
+  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
+    const auto [first, second] = model.bonds.pair(p);
+    if (first >= model.mesh.n_owned_elements) continue;
+    for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
+      const int i = model.points.first(first) + model.bonds.first_end(b);
+      const int j = model.points.first(second) + model.bonds.second_end(b);
+      const double squared = (model.points.position(j) - model.points.position(i)).squaredNorm();
+      const double stiffness = model.spring(b, i, j) * squared * squared;
+      sums[0] += stiffness;
+      if (squared <= reach * reach) sums[1] += stiffness;
+    }
+  }
+  base::sum(comm, sums);
+  return {reach, sums[1] > 0. ? sums[0] / sums[1] : 1.};
+}
+
+template BondSelection short_range<2>(const CoupledModel<2>&, const base::Comm&, double);
+template BondSelection short_range<3>(const CoupledModel<3>&, const base::Comm&, double);
 template class CoupledStiffness<2>;
 template class CoupledStiffness<3>;
 

@@ -10,8 +10,10 @@
 
 namespace perimorph::solvers {
 
-void LinearSolver::set_matrix(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space) {
-  matrix_ = matrix;
+void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
+                                const Teuchos::RCP<Matrix>& preconditioner_matrix, const NearNullSpace& near_null_space) {
+  operator_ = linear_operator;
+  preconditioner_matrix_ = preconditioner_matrix;
   near_null_space_ = near_null_space;
   multigrid_.reset();
   condition_ = Condition::missing;
@@ -52,7 +54,7 @@ void LinearSolver::prepare() {
     if (refresh) {
       multigrid_->refresh();
     } else {
-      multigrid_ = std::make_unique<Multigrid>(matrix_, near_null_space_, parameters_.muelu, smoothing_);
+      multigrid_ = std::make_unique<Multigrid>(preconditioner_matrix_, near_null_space_, parameters_.muelu, smoothing_);
       fresh_rate_ = 0.;
     }
   } catch (const std::exception& error) {
@@ -66,7 +68,7 @@ LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, 
                                             double relative_tolerance) {
   using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
   const auto timer = profile_.measure(base::Phase::cg);
-  const auto problem = Teuchos::rcp(new Problem(matrix_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
+  const auto problem = Teuchos::rcp(new Problem(operator_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
   problem->setLeftPrec(multigrid_->apply_inverse());
   problem->setProblem();
 

@@ -47,7 +47,7 @@ std::vector<PlainPoint> all_points(const CoupledBody& body) {
 
 /// c0 of WHL19, eq. 24, written out.
 double plain_micromodulus(const CoupledBody& body, double r) {
-  return r <= body.c0.horizon ? body.c0.tau0 * std::exp(-r / body.c0.characteristic_length) : 0.;
+  return r <= body.c0.horizon * (1. + 1e-9) ? body.c0.tau0 * std::exp(-r / body.c0.characteristic_length) : 0.;
 }
 
 /// WHL19, eq. 22: all ordered pairs of points of a convex body, factor 1/2, no shortcuts. E(x) is taken as computed.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <nanoflann.hpp>
 #include <utility>
 #include <vector>
@@ -23,7 +24,7 @@ class PointTree {
   /// Indices of the points at most `radius` from `center`, ascending. Local.
   std::vector<int> within(const Point<dim>& center, double radius) const {
     // nanoflann compares squared distances with "<": widen by rounding so that points on the sphere are found.
-    const double squared = radius * radius * (1. + 1e-12);
+    const double squared = radius * radius * (1. + 1e-12) + std::numeric_limits<double>::min();
     std::vector<std::pair<std::uint32_t, double>> found;
     if (!points_.list.empty()) tree_.radiusSearch(center.data(), squared, found, nanoflann::SearchParams());
     std::vector<int> indices;

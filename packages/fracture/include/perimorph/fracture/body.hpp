@@ -17,6 +17,8 @@ struct BodyOptions {
   operators::PeridynamicStiffness peridynamic_stiffness;
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o, [length]
   double tolerance;                                 ///< residual over reaction forces
+  PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
+  double short_range_cut_off = 0.;                  ///< [length]
   solvers::SolverParameters solver;
 };
 BodyOptions body_options(const Case& input);
@@ -95,6 +97,7 @@ class Body {
   std::vector<char> discontinuous_, flagged_;
   std::unique_ptr<discretization::DofMap<dim>> dofs_;
   std::unique_ptr<operators::CoupledStiffness<dim>> stiffness_;
+  std::unique_ptr<operators::CoupledStiffness<dim>> short_range_;  ///< for the preconditioner; null: stiffness_ serves
 
   using Vector = Tpetra::Vector<double>;
   Teuchos::RCP<Vector> owned_u_, all_u_, residual_, correction_;
@@ -115,6 +118,7 @@ class Body {
   bool find_discontinuous();
   void check_pre_cracks() const;
   void renumber();
+  void assemble();
   void prescribe_displacements();
   void update_forces();
   bool is_prescribed(int node, int component) const {

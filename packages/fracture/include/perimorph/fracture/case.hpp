@@ -18,6 +18,7 @@ enum class SeedShape { ball, box, everything };  ///< a ball is a circle in 2D, 
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
 enum class OperatorForm { crs };
+enum class PreconditionerMatrix { coupled, short_range };
 
 /// A first peridynamic zone: alpha = 1 inside, falling to 0 over the rim. Lengths in the mesh's unit.
 struct Seed {
@@ -80,6 +81,8 @@ struct Case {
   int max_zone_growths;       ///< changes of topology within one increment
 
   OperatorForm operator_form;
+  PreconditionerMatrix preconditioner_matrix;
+  double short_range_cut_off;  ///< of the bonds in the short-range matrix, [length] (given in horizons)
   double tolerance;           ///< residual over reaction forces
   int max_cg_iterations;
   double rebuild_growth;      ///< the preconditioner is rebuilt when iterations exceed this times those after its set-up

@@ -20,8 +20,10 @@ class LinearSolver {
  public:
   LinearSolver(SolverParameters parameters, base::Profile& profile) : parameters_(std::move(parameters)), profile_(profile) {}
 
-  /// A new matrix: the preconditioner is rebuilt before the next solve. Local.
-  void set_matrix(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space);
+  /// A new operator: the preconditioner is rebuilt before the next solve, from a matrix that is near to the operator, or
+  /// the same. Local.
+  void set_operator(const Teuchos::RCP<Operator>& linear_operator, const Teuchos::RCP<Matrix>& preconditioner_matrix,
+                    const NearNullSpace& near_null_space);
 
   /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Returns the iterations. Collective.
   /// If the iteration breaks down or does not converge, it is tried again once with a rebuilt, robust preconditioner.
@@ -34,7 +36,8 @@ class LinearSolver {
 
   SolverParameters parameters_;
   base::Profile& profile_;
-  Teuchos::RCP<Matrix> matrix_;
+  Teuchos::RCP<Operator> operator_;
+  Teuchos::RCP<Matrix> preconditioner_matrix_;
   NearNullSpace near_null_space_;
   std::unique_ptr<Multigrid> multigrid_;
   Condition condition_ = Condition::missing;
