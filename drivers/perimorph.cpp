@@ -73,7 +73,8 @@ int main(int argc, char** argv) {
     if (app.got_subcommand(check)) {
       fracture::check(comm, input, arguments.talk());
     } else {
-      fracture::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output, arguments.talk());
+      fracture::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output,
+                    arguments.talk());
     }
     return 0;
   } catch (const base::UserError& error) {

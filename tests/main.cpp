@@ -1,7 +1,8 @@
 // The main program of every GoogleTest program: starts MPI, and fails on all ranks if a test failed on one.
 
-#include <Tpetra_Core.hpp>
 #include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
 
 #include "perimorph/base/parallel.hpp"
 

@@ -71,7 +71,8 @@ struct CoupledBody {
     exchange.update(classes);
     exchange.update(discontinuous);
     elasticity.update(mesh, points, bonds, alpha, classes);
-    dofs = std::make_unique<discretization::DofMap<2>>(comm, mesh, discretization::corner_exchange(*comm, mesh), discontinuous);
+    dofs = std::make_unique<discretization::DofMap<2>>(comm, mesh, discretization::corner_exchange(*comm, mesh),
+                                                       discontinuous);
     stiffness = std::make_unique<operators::CoupledStiffness<2>>(model(), dirichlet, discontinuous);
   }
 

@@ -159,8 +159,6 @@ TEST(HybridPatch, StiffnessKeptInThePeridynamicZoneDoesNoHarmUnderExtension) {
   EXPECT_LT(kept.strain, 1.01 * dropped.strain);
 }
 
-/// Disabled: Body::solve relates its target to the reactions, which vanish here, and gives up on the rounding that is
-/// left.
 TEST(HybridPatch, ARigidMotionCausesNoForces) {
   const Gradient rotation = gradient(0., -0.01, 0.01, 0.);  // linearized
   Specimen specimen = patch(grid({24, 24, 24., 24., Point2::Zero(), 0.15}), 3., 0.2, rotation);

@@ -5,8 +5,8 @@
 namespace perimorph::base {
 
 const char* name(Phase phase) {
-  static constexpr std::array<const char*, n_phases> names = {"read", "search", "assemble", "preconditioner", "CG",
-                                                              "residual", "bonds", "adapt", "write"};
+  static constexpr std::array<const char*, n_phases> names = {"read",     "search", "assemble", "preconditioner", "CG",
+                                                              "residual", "bonds",  "adapt",    "write"};
   return names[static_cast<int>(phase)];
 }
 

@@ -114,7 +114,8 @@ std::vector<typename BondFamilies<dim>::Bond> BondFamilies<dim>::break_overstret
   std::vector<Bond> newly_broken;
   for (int p = 0; p < n_pairs(); ++p) {
     const auto [first, second] = pairs_[p];
-    if (first == second || classes[first] != morphing::ElementClass::pd || classes[second] != morphing::ElementClass::pd) {
+    if (first == second || classes[first] != morphing::ElementClass::pd ||
+        classes[second] != morphing::ElementClass::pd) {
       continue;
     }
     const int first_a = points_.first(first), first_b = points_.first(second);

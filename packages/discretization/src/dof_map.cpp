@@ -33,8 +33,8 @@ HaloExchange corner_exchange(const base::Comm& comm, const mesh::Mesh<dim>& mesh
 }
 
 template <int dim>
-DofMap<dim>::DofMap(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const HaloExchange& corners,
-                    const std::vector<char>& discontinuous)
+DofMap<dim>::DofMap(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
+                    const HaloExchange& corners, const std::vector<char>& discontinuous)
     : mesh_(mesh) {
   std::vector<GlobalId> global_at_corner = number_owned(*comm, discontinuous);
   corners.update(global_at_corner);

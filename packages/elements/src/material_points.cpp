@@ -15,7 +15,8 @@ MaterialPoints<dim>::MaterialPoints(const mesh::Mesh<dim>& mesh, int points_per_
     first_gradient_.push_back(gradients_.size());
     for (int q = 0; q < reference.n_points; ++q) {
       base::Point<dim> x = base::Point<dim>::Zero();
-      for (int k = 0; k < reference.n_corners; ++k) x += reference.shape[q](k) * mesh.coordinates[mesh.corners_of(e)[k]];
+      for (int k = 0; k < reference.n_corners; ++k)
+        x += reference.shape[q](k) * mesh.coordinates[mesh.corners_of(e)[k]];
       const Eigen::Matrix<double, dim, dim> j = jacobian(e, q);
       const double volume = reference.weights[q] * j.determinant();
       PERIMORPH_ASSERT(volume > 0., "element {} has volume {} at point {}", mesh.element_ids[e], volume, q);

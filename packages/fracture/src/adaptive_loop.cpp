@@ -8,8 +8,8 @@ namespace {
 
 void check_limit(int count, int limit, int increment, const char* what, const char* parameter) {
   if (count <= limit) return;
-  throw base::ComputationError(fmt::format("increment {}: more than {} {}; /Loading/{} sets this limit", increment, limit,
-                                           what, parameter));
+  throw base::ComputationError(
+      fmt::format("increment {}: more than {} {}; /Loading/{} sets this limit", increment, limit, what, parameter));
 }
 
 }  // namespace
@@ -23,7 +23,8 @@ void run_adaptive_loop(Body<dim>& body, Results<dim>& results, const LoopLimits&
       check_limit(growths++, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
       body.update_topology();
       do {
-        check_limit(damage_iterations++, limits.max_damage_iterations, increment, "solves", "Maximum Damage Iterations");
+        check_limit(damage_iterations++, limits.max_damage_iterations, increment, "solves",
+                    "Maximum Damage Iterations");
         body.solve();
         results.show_progress(increment, body);
       } while (body.break_bonds() > 0);

@@ -132,7 +132,8 @@ bool Body<dim>::find_discontinuous() {
   GlobalId n_discontinuous = 0;
   for (int e = 0; e < mesh_.n_owned_elements; ++e) {
     const bool whole_zone = options_.discontinuous == DiscontinuousElements::whole_zone;
-    const bool is_split = classes_[e] == ElementClass::pd && (whole_zone || bonds_.is_damaged(e) || cut_by_pre_crack_[e]);
+    const bool is_split =
+        classes_[e] == ElementClass::pd && (whole_zone || bonds_.is_damaged(e) || cut_by_pre_crack_[e]);
     if (is_split && !discontinuous_[e]) split = 1;
     discontinuous_[e] = is_split;
     n_discontinuous += is_split;
@@ -187,7 +188,8 @@ void Body<dim>::renumber() {
 template <int dim>
 void Body<dim>::solve() {
   constexpr int max_passes = 10;
-  // Below this share of the largest reaction so far, forces count as none: a severed body has nothing left to relate to.
+  // Below this share of the largest reaction so far, forces count as none: a severed body has nothing left to relate
+  // to.
   constexpr double negligible = 1e-4;
 
   loads_ = problem_.loads.forces(mesh_, points_, *dofs_, load_factor_);
@@ -202,8 +204,9 @@ void Body<dim>::solve() {
     const double target = options_.tolerance * std::max(balance.reaction, negligible * largest_reaction_);
     if (balance.residual <= target) break;
     if (pass == max_passes) {
-      throw base::ComputationError(fmt::format("the forces do not balance: residual {:.3e}, reactions {:.3e} after {} solves",
-                                               balance.residual, balance.reaction, max_passes));
+      throw base::ComputationError(
+          fmt::format("the forces do not balance: residual {:.3e}, reactions {:.3e} after {} solves", balance.residual,
+                      balance.reaction, max_passes));
     }
     counts_.cg_iterations += solver_.solve(*residual_, *correction_, 0.5 * target);
     ++counts_.linear_solves;
@@ -278,7 +281,9 @@ GlobalId Body<dim>::break_bonds() {
   if (short_range_) short_range_->subtract(broken);
   operators::subtract_bond_forces(model(), broken, at_points_, force_);
   dissipated_ += base::sum(*comm_, operators::bond_energy(model(), broken, at_points_));
-  const auto is_counted_here = [&](std::size_t b) { return bonds_.pair(bonds_.pair_of(b)).first < mesh_.n_owned_elements; };
+  const auto is_counted_here = [&](std::size_t b) {
+    return bonds_.pair(bonds_.pair_of(b)).first < mesh_.n_owned_elements;
+  };
   const GlobalId n_broken =
       base::sum(*comm_, static_cast<GlobalId>(std::count_if(broken.begin(), broken.end(), is_counted_here)));
   counts_.broken_bonds += n_broken;
@@ -302,8 +307,8 @@ GlobalId Body<dim>::flag_damaged_elements() {
   auto flag_points = base::gather_on_all(*comm_, own);
   std::sort(flag_points.begin(), flag_points.end(), [](const auto& a, const auto& b) { return a.element < b.element; });
   for (const auto& flag : flag_points) {
-    pending_zones_.push_back(
-        morphing::Zone<dim>::ball(Eigen::Map<const Point<dim>>(flag.x.data()), options_.growth_inner_radius, options_.growth_outer_radius));
+    pending_zones_.push_back(morphing::Zone<dim>::ball(Eigen::Map<const Point<dim>>(flag.x.data()),
+                                                       options_.growth_inner_radius, options_.growth_outer_radius));
   }
   counts_.damaged_elements += static_cast<GlobalId>(flag_points.size());
   return static_cast<GlobalId>(flag_points.size());

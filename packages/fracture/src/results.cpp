@@ -75,14 +75,13 @@ std::vector<ElementRecord> own_elements(const Body<dim>& body) {
 
 /// Blocks by material, class and type, elements in each by id. Returns each record's place in the file.
 template <int dim>
-std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records, const std::vector<std::string>& block_names,
-                                  io::ExodusModel<dim>& model) {
+std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records,
+                                  const std::vector<std::string>& block_names, io::ExodusModel<dim>& model) {
   std::vector<int> order(records.size());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int i) { return std::make_tuple(records[i].block, records[i].kind, records[i].type); };
-  std::sort(order.begin(), order.end(), [&](int i, int j) {
-    return key(i) != key(j) ? key(i) < key(j) : records[i].id < records[j].id;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : records[i].id < records[j].id; });
   std::vector<int> place(records.size());
   for (std::size_t position = 0; position < order.size(); ++position) {
     const auto& record = records[order[position]];
@@ -95,7 +94,8 @@ std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records, con
     }
     auto& block = model.blocks.back();
     block.element_ids.push_back(record.id);
-    for (int k = 0; k < mesh::n_corners(record.type); ++k) block.connectivity.push_back(static_cast<int>(record.nodes[k]));
+    for (int k = 0; k < mesh::n_corners(record.type); ++k)
+      block.connectivity.push_back(static_cast<int>(record.nodes[k]));
   }
   return place;
 }
@@ -105,7 +105,8 @@ std::vector<int> own_nodes_in(const Body<dim>& body, const std::vector<int>& ref
   const auto model = body.model();
   std::vector<int> found;
   for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) {
-    if (std::binary_search(reference_nodes.begin(), reference_nodes.end(), model.dofs.reference_node(n))) found.push_back(n);
+    if (std::binary_search(reference_nodes.begin(), reference_nodes.end(), model.dofs.reference_node(n)))
+      found.push_back(n);
   }
   return found;
 }
@@ -126,10 +127,12 @@ void gather_groups(const base::Comm& comm, const Body<dim>& body, const std::map
   for (const auto& [name, sides] : body.mesh().side_sets) {
     std::vector<SideRecord> own;
     for (const auto& side : sides) {
-      if (side.element < body.mesh().n_owned_elements) own.push_back({body.mesh().element_ids[side.element], side.side});
+      if (side.element < body.mesh().n_owned_elements)
+        own.push_back({body.mesh().element_ids[side.element], side.side});
     }
     auto& all = model.side_sets[name];
-    for (const auto& record : base::gather_on_root(comm, own)) all.push_back({place_of.at(record.element), record.side});
+    for (const auto& record : base::gather_on_root(comm, own))
+      all.push_back({place_of.at(record.element), record.side});
   }
 }
 
@@ -137,7 +140,8 @@ template <int dim>
 std::vector<base::Point<dim>> own_coordinates(const Body<dim>& body) {
   const auto model = body.model();
   std::vector<base::Point<dim>> own;
-  for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) own.push_back(model.mesh.coordinates[model.dofs.reference_node(n)]);
+  for (int n = 0; n < model.dofs.n_owned_nodes(); ++n)
+    own.push_back(model.mesh.coordinates[model.dofs.reference_node(n)]);
   return own;
 }
 
@@ -148,7 +152,8 @@ std::vector<base::Point<dim>> gather_points(const base::Comm& comm, const std::v
   for (const auto& x : own) flat.insert(flat.end(), x.begin(), x.end());
   const auto all = base::gather_on_root(comm, flat);
   std::vector<base::Point<dim>> points;
-  for (std::size_t i = 0; i < all.size(); i += dim) points.push_back(Eigen::Map<const base::Point<dim>>(all.data() + i));
+  for (std::size_t i = 0; i < all.size(); i += dim)
+    points.push_back(Eigen::Map<const base::Point<dim>>(all.data() + i));
   return points;
 }
 
@@ -165,9 +170,9 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
   for (const auto& group : input.reactions) {
     for (int c = 0; c < dim; ++c) reactions_.push_back({group + "_" + axis_names[c], group, c});
   }
-  std::vector<std::string> globals = {"load_factor",   "broken_bonds",  "damaged_elements", "dgfe_elements",
-                                      "unknowns",      "linear_solves", "cg_iterations",    "wall_seconds",
-                                      "elastic_energy", "dissipated_energy", "external_work", "jump_loss"};
+  std::vector<std::string> globals = {"load_factor",    "broken_bonds",      "damaged_elements", "dgfe_elements",
+                                      "unknowns",       "linear_solves",     "cg_iterations",    "wall_seconds",
+                                      "elastic_energy", "dissipated_energy", "external_work",    "jump_loss"};
   for (const auto& r : reactions_) globals.push_back("reaction_" + r.column);
   for (const auto& r : reactions_) globals.push_back("displacement_" + r.column);
 
@@ -176,8 +181,9 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
     std::vector<std::string> columns = {"increment"};
     columns.insert(columns.end(), globals.begin(), globals.end());
     history_ = std::make_unique<io::History>((std::filesystem::path(folder) / "history.csv").string(), columns);
-    series_ = std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
-                                                      input.title, variable_names<dim>(globals), lines_of(input.resolved));
+    series_ =
+        std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
+                                                input.title, variable_names<dim>(globals), lines_of(input.resolved));
   });
 }
 
@@ -259,14 +265,14 @@ void Results<dim>::show_line(int increment, const Body<dim>& body) {
   }
   const std::string shown = reactions_.empty() ? "" : reactions_[shown_reaction_].column;
   if (increment == 1) {
-    voice_.log->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load", "reaction " + shown,
-                     "new broken", "all broken", "DGFE", "unknowns", "solves", "its", "seconds");
+    voice_.log->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load",
+                     "reaction " + shown, "new broken", "all broken", "DGFE", "unknowns", "solves", "its", "seconds");
   }
   const auto& counts = body.counts();
-  voice_.log->info("{:>6} {:>9.4g} {:>22.6g} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9.2f}", increment, body.load_factor(),
-             reactions_.empty() ? 0. : reactions_[shown_reaction_].force, counts.broken_bonds - broken_before_, counts.broken_bonds,
-             counts.dgfe_elements, counts.unknowns, counts.linear_solves, counts.cg_iterations,
-             profile_.elapsed() - seconds_before_);
+  voice_.log->info("{:>6} {:>9.4g} {:>22.6g} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9.2f}", increment,
+                   body.load_factor(), reactions_.empty() ? 0. : reactions_[shown_reaction_].force,
+                   counts.broken_bonds - broken_before_, counts.broken_bonds, counts.dgfe_elements, counts.unknowns,
+                   counts.linear_solves, counts.cg_iterations, profile_.elapsed() - seconds_before_);
 }
 
 template <int dim>
@@ -274,8 +280,8 @@ void Results<dim>::show_progress(int increment, const Body<dim>& body) {
   if (!voice_.shows_progress) return;
   constexpr int width = 30;
   const int done = width * (increment - 1) / last_increment_;
-  fmt::print("\r\033[K[{:=<{}}{:>{}}] step {}/{}: {} solves, {} broken bonds", ">", done + 1, "", width - done, increment,
-             last_increment_, body.counts().linear_solves, body.counts().broken_bonds);
+  fmt::print("\r\033[K[{:=<{}}{:>{}}] step {}/{}: {} solves, {} broken bonds", ">", done + 1, "", width - done,
+             increment, last_increment_, body.counts().linear_solves, body.counts().broken_bonds);
   std::fflush(stdout);
 }
 
@@ -285,12 +291,14 @@ void Results<dim>::summarize(const Body<dim>& body) {
   const auto& counts = body.counts();
   voice_.log->info("");
   voice_.log->info("broken bonds     {}{}", counts.broken_bonds,
-             first_break_ > 0 ? fmt::format(", the first in step {}", first_break_) : "");
+                   first_break_ > 0 ? fmt::format(", the first in step {}", first_break_) : "");
   voice_.log->info("damaged elements {}, discontinuous {}", counts.damaged_elements, counts.dgfe_elements);
-  voice_.log->info("linear solves    {} with {} iterations; {} topologies", total_solves_, total_iterations_, counts.topologies);
+  voice_.log->info("linear solves    {} with {} iterations; {} topologies", total_solves_, total_iterations_,
+                   counts.topologies);
   for (const auto& r : reactions_) {
     if (std::abs(r.peak) > 0.) {
-      voice_.log->info("reaction {:<24} peak {:>12.6g} in step {}, last {:>12.6g}", r.column, r.peak, r.peak_increment, r.force);
+      voice_.log->info("reaction {:<24} peak {:>12.6g} in step {}, last {:>12.6g}", r.column, r.peak, r.peak_increment,
+                       r.force);
     }
   }
   voice_.log->info("\n{}", profile_.table());

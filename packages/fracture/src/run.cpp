@@ -48,8 +48,8 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
   if (std::isinf(problem.critical_stretch)) {
     log->info("fracture         none: neither critical stretch nor fracture energy is given");
   } else {
-    log->info("fracture         critical stretch s_crit = {:.6g}, fracture energy G_c = {:.6g}", problem.critical_stretch,
-              problem.fracture_energy);
+    log->info("fracture         critical stretch s_crit = {:.6g}, fracture energy G_c = {:.6g}",
+              problem.critical_stretch, problem.fracture_energy);
   }
 }
 
@@ -91,8 +91,7 @@ std::string listing(const Teuchos::ParameterList& list, const std::string& path)
 
 /// A folder that goes when this goes.
 struct TemporaryFolder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("perimorph-check-" + std::to_string(getpid()));
+  std::filesystem::path path = std::filesystem::temp_directory_path() / ("perimorph-check-" + std::to_string(getpid()));
   TemporaryFolder() { std::filesystem::create_directories(path); }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -135,8 +134,8 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   n_bonds = base::sum(*comm, n_bonds);
   log->info("elements         {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", sums[0], sums[1], sums[2],
             body.counts().dgfe_elements);
-  log->info("at the start     {} unknowns, {} bonds, {:.2f} GB with the assembled matrix", body.counts().unknowns, n_bonds,
-            sums[3] / 1e9);
+  log->info("at the start     {} unknowns, {} bonds, {:.2f} GB with the assembled matrix", body.counts().unknowns,
+            n_bonds, sums[3] / 1e9);
   log->info("The zone grows with the cracks, and unknowns, bonds and memory with it.");
 }
 

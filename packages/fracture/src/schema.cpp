@@ -181,14 +181,16 @@ void declare_solver(ParameterList& root) {
   ParameterList& solver = section(root, "Solver", "Conjugate gradients with an algebraic multigrid preconditioner.");
   solver.set("Operator", "CRS", "How the coupled stiffness is held: \"CRS\" is an assembled sparse matrix.",
              one_of(words(operator_forms)));
-  solver.set("Preconditioner Matrix", "Short-Range",
-             "What the multigrid preconditioner is built from: \"Coupled\" is the whole stiffness; \"Short-Range\" leaves out "
-             "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
-             one_of(words(preconditioner_matrices)));
-  solver.set("Short-Range Cut-Off", 0.4,
-             "Longest bond in the short-range matrix, in horizons [-]. Below the distance of points in neighbouring elements "
-             "the preconditioner is useless.",
-             between(0., 1.));
+  solver.set(
+      "Preconditioner Matrix", "Short-Range",
+      "What the multigrid preconditioner is built from: \"Coupled\" is the whole stiffness; \"Short-Range\" leaves out "
+      "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
+      one_of(words(preconditioner_matrices)));
+  solver.set(
+      "Short-Range Cut-Off", 0.4,
+      "Longest bond in the short-range matrix, in horizons [-]. Below the distance of points in neighbouring elements "
+      "the preconditioner is useless.",
+      between(0., 1.));
   solver.set("Tolerance", 1e-6,
              "Residual over the norm of the reaction forces [-]. Too loose, and bonds break in another order.",
              between(0., 1.));

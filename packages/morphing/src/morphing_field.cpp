@@ -34,7 +34,11 @@ double Zone<dim>::alpha(const base::Point<dim>& x, Profile profile) const {
 template <int dim>
 MorphingField<dim>::MorphingField(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                   Profile profile)
-    : mesh_(mesh), points_(points), profile_(profile), alpha_(points.size(), 0.), carries_bonds_(mesh.n_elements(), 0) {}
+    : mesh_(mesh),
+      points_(points),
+      profile_(profile),
+      alpha_(points.size(), 0.),
+      carries_bonds_(mesh.n_elements(), 0) {}
 
 template <int dim>
 std::vector<int> MorphingField<dim>::add(const std::vector<Zone<dim>>& zones) {

@@ -105,7 +105,8 @@ void CoupledStiffness<dim>::add_block(int row, int column, const Block& block) {
   const int* begin = columns_.data() + first_[row];
   const int* end = columns_.data() + first_[row + 1];
   const std::size_t width = static_cast<std::size_t>(end - begin) * dim;
-  double* target = values_ + first_[row] * dim * dim + static_cast<std::size_t>(std::lower_bound(begin, end, column) - begin) * dim;
+  double* target =
+      values_ + first_[row] * dim * dim + static_cast<std::size_t>(std::lower_bound(begin, end, column) - begin) * dim;
   for (int c = 0; c < dim; ++c) {
     for (int d = 0; d < dim; ++d) {
       const bool eliminated = fixed_[row * dim + c] || fixed_[column * dim + d];
@@ -118,10 +119,11 @@ template <int dim>
 void CoupledStiffness<dim>::add_element(int element) {
   elements::with_corners<dim>(model_.mesh.n_corners(element), [&](auto corners) {
     constexpr int n = decltype(corners)::value;
-    Eigen::Matrix<double, dim * n, dim * n> k = Eigen::Matrix<double, dim * n, dim * n>::Zero();
+    Eigen::Matrix<double, dim * n, dim* n> k = Eigen::Matrix<double, dim * n, dim * n>::Zero();
     for (int q = 0; q < model_.points.count(element); ++q) {
       const auto b = elements::strain_matrix<dim, n>(model_.points.gradients(element, q));
-      const base::Stiffness<dim> e = model_.points.weight(model_.points.first(element) + q) * model_.elasticity.at(element, q);
+      const base::Stiffness<dim> e =
+          model_.points.weight(model_.points.first(element) + q) * model_.elasticity.at(element, q);
       k.noalias() += b.transpose() * (e * b);
     }
     const int* nodes = model_.dofs.nodes_of(element);

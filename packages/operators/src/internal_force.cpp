@@ -47,7 +47,8 @@ Point<dim> pull(const CoupledModel<dim>& model, std::size_t bond, int i, int j, 
 
 /// Spreads a force at a point of an element to the owned nodes among its corners.
 template <int dim>
-void spread(const CoupledModel<dim>& model, int element, int q, const Point<dim>& at_point, std::vector<double>& force) {
+void spread(const CoupledModel<dim>& model, int element, int q, const Point<dim>& at_point,
+            std::vector<double>& force) {
   const int* nodes = model.dofs.nodes_of(element);
   const auto& shape = model.points.shape(element, q);
   for (int k = 0; k < model.mesh.n_corners(element); ++k) {

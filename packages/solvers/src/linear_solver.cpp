@@ -11,7 +11,8 @@
 namespace perimorph::solvers {
 
 void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
-                                const Teuchos::RCP<Matrix>& preconditioner_matrix, const NearNullSpace& near_null_space) {
+                                const Teuchos::RCP<Matrix>& preconditioner_matrix,
+                                const NearNullSpace& near_null_space) {
   operator_ = linear_operator;
   preconditioner_matrix_ = preconditioner_matrix;
   near_null_space_ = near_null_space;
@@ -38,9 +39,10 @@ int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solutio
     outcome = iterate(right_hand_side, solution, relative_tolerance);
   }
   if (!outcome.converged) {
-    throw base::ComputationError(fmt::format(
-        "conjugate gradients did not reduce the residual by {:.1e} within {} iterations, with a fresh, robust preconditioner{}{}",
-        relative_tolerance, outcome.iterations, outcome.trouble.empty() ? "" : ": ", outcome.trouble));
+    throw base::ComputationError(
+        fmt::format("conjugate gradients did not reduce the residual by {:.1e} within {} iterations, with a fresh, "
+                    "robust preconditioner{}{}",
+                    relative_tolerance, outcome.iterations, outcome.trouble.empty() ? "" : ": ", outcome.trouble));
   }
   judge(outcome.iterations, relative_tolerance);
   return outcome.iterations;
@@ -68,7 +70,8 @@ LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, 
                                             double relative_tolerance) {
   using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
   const auto timer = profile_.measure(base::Phase::cg);
-  const auto problem = Teuchos::rcp(new Problem(operator_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
+  const auto problem =
+      Teuchos::rcp(new Problem(operator_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
   problem->setLeftPrec(multigrid_->apply_inverse());
   problem->setProblem();
 

@@ -48,8 +48,8 @@ NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Poi
   using Map = Tpetra::Map<>;
   constexpr int n_rotations = dim * (dim - 1) / 2;
   const auto dof_map = matrix.getRowMap();
-  const auto node_map = Teuchos::rcp(
-      new Map(dof_map->getGlobalNumElements() / dim, coordinates.size(), 0, dof_map->getComm()));
+  const auto node_map =
+      Teuchos::rcp(new Map(dof_map->getGlobalNumElements() / dim, coordinates.size(), 0, dof_map->getComm()));
   NearNullSpace space{Teuchos::rcp(new MultiVector(dof_map, dim + n_rotations)),
                       Teuchos::rcp(new MultiVector(node_map, dim))};
   const auto modes = space.modes->getLocalViewHost(Tpetra::Access::OverwriteAll);

@@ -1,4 +1,5 @@
-// The coupled stiffness against a plain reference assembled by brute force over all pairs of points, and its properties.
+// The coupled stiffness against a plain reference assembled by brute force over all pairs of points, and its
+// properties.
 
 #include <gtest/gtest.h>
 
@@ -101,7 +102,8 @@ TEST_P(CoupledStiffness, IsSymmetricAndPositiveWithThreeRigidModesAtZeroEnergy) 
 TEST_P(CoupledStiffness, TimesADisplacementIsTheMatrixFreeInternalForce) {
   Eigen::VectorXd u(2 * body.dofs->n_nodes());
   for (int i = 0; i < u.size(); ++i) u[i] = std::sin(1.7 * i);
-  const auto force = operators::internal_force(body.model(), u.data(), operators::displacements_at_points(body.model(), u.data()));
+  const auto force =
+      operators::internal_force(body.model(), u.data(), operators::displacements_at_points(body.model(), u.data()));
   const Eigen::VectorXd expected = body.dense() * u;
   const Eigen::Map<const Eigen::VectorXd> actual(force.data(), u.size());
   EXPECT_LT((actual - expected).norm(), 2e-8 * expected.norm());  // the anchors'
@@ -125,7 +127,8 @@ TEST_P(CoupledStiffness, WithoutBrokenBondsEqualsTheOneAssembledAfterBreaking) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, CoupledStiffness,
-                         ::testing::Combine(::testing::Values(PeridynamicStiffness::dropped, PeridynamicStiffness::kept),
+                         ::testing::Combine(::testing::Values(PeridynamicStiffness::dropped,
+                                                              PeridynamicStiffness::kept),
                                             ::testing::Bool(), ::testing::Bool()));
 
 TEST(MorphedStiffness, EqualsTheDiscreteSumOfEquation16ClippedToPositive) {

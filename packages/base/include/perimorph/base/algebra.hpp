@@ -13,7 +13,7 @@ using Point = Eigen::Matrix<double, dim, 1>;
 
 /// Number of independent components of a symmetric tensor: 3 in two dimensions, 6 in three.
 template <int dim>
-inline constexpr int n_voigt = dim * (dim + 1) / 2;
+inline constexpr int n_voigt = dim*(dim + 1) / 2;
 
 /// Strain with engineering shear (xx, yy, xy) or (xx, yy, zz, yz, xz, xy); stress in the same order.
 template <int dim>

@@ -24,10 +24,10 @@ struct Bug : std::logic_error {
 }  // namespace perimorph::base
 
 /// Throws Bug with a formatted message (fmt syntax, with the values) if the condition does not hold. Always on.
-#define PERIMORPH_ASSERT(condition, ...)                                                                     \
-  do {                                                                                                       \
-    if (!(condition)) {                                                                                      \
+#define PERIMORPH_ASSERT(condition, ...)                                                                      \
+  do {                                                                                                        \
+    if (!(condition)) {                                                                                       \
       throw ::perimorph::base::Bug(fmt::format("{}:{}: {} does not hold: ", __FILE__, __LINE__, #condition) + \
-                                   fmt::format(__VA_ARGS__));                                                \
-    }                                                                                                        \
+                                   fmt::format(__VA_ARGS__));                                                 \
+    }                                                                                                         \
   } while (false)

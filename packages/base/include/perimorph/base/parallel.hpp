@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Teuchos_Comm.hpp>
-
 #include <functional>
 #include <string>
 #include <vector>

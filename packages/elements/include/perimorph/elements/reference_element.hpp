@@ -20,9 +20,9 @@ using ShapeGradients = Eigen::Matrix<double, dim, Eigen::Dynamic, 0, dim, mesh::
 template <int dim>
 struct ReferenceElement {
   int n_corners, n_points;
-  std::vector<double> weights;                  ///< of the rule, sum = reference volume
-  std::vector<CornerValues> shape;              ///< N_k at each point
-  std::vector<ShapeGradients<dim>> gradients;   ///< dN_k/dxi at each point
+  std::vector<double> weights;                 ///< of the rule, sum = reference volume
+  std::vector<CornerValues> shape;             ///< N_k at each point
+  std::vector<ShapeGradients<dim>> gradients;  ///< dN_k/dxi at each point
 };
 
 /// The table for one type and rule, made at its first use.

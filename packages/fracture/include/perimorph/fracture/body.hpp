@@ -18,7 +18,7 @@ struct BodyOptions {
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o, [length]
   double tolerance;                                 ///< residual over reaction forces
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
-  double short_range_cut_off = 0.;                  ///< [length]
+  double short_range_cut_off = 0.;  ///< [length]
   solvers::SolverParameters solver;
 };
 BodyOptions body_options(const Case& input);
@@ -71,7 +71,7 @@ class Body {
   const mesh::Mesh<dim>& mesh() const { return mesh_; }
   const std::vector<morphing::ElementClass>& classes() const { return classes_; }
   bool is_discontinuous(int element) const { return discontinuous_[element]; }
-  const double* displacement() const;                                   ///< all local degrees of freedom
+  const double* displacement() const;  ///< all local degrees of freedom
   const std::vector<base::Point<dim>>& displacement_at_points() const { return at_points_; }
   /// Force that supports exert on an owned node, [force].
   base::Point<dim> reaction(int node) const;
@@ -92,7 +92,7 @@ class Body {
   solvers::LinearSolver solver_;
 
   std::vector<morphing::Zone<dim>> pending_zones_;
-  std::vector<char> cut_by_pre_crack_;              ///< per local element
+  std::vector<char> cut_by_pre_crack_;  ///< per local element
   std::vector<morphing::ElementClass> classes_;
   std::vector<char> discontinuous_, flagged_;
   std::unique_ptr<discretization::DofMap<dim>> dofs_;

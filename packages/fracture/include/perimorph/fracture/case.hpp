@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,10 +23,10 @@ enum class PreconditionerMatrix { coupled, short_range };
 struct Seed {
   std::string name;
   SeedShape shape;
-  std::vector<double> center;             ///< ball: (dim)
-  double inner_radius = 0., outer_radius = 0.;  ///< ball: r1, r2
+  std::vector<double> center;                      ///< ball: (dim)
+  double inner_radius = 0., outer_radius = 0.;     ///< ball: r1, r2
   std::vector<double> lower_corner, upper_corner;  ///< box: (dim)
-  double rim = 0.;                        ///< box: width over which alpha falls from 1 to 0
+  double rim = 0.;                                 ///< box: width over which alpha falls from 1 to 0
 };
 
 /// A polyline (2D) along which there are no bonds and elements part.
@@ -83,15 +82,15 @@ struct Case {
   OperatorForm operator_form;
   PreconditionerMatrix preconditioner_matrix;
   double short_range_cut_off;  ///< of the bonds in the short-range matrix, [length] (given in horizons)
-  double tolerance;           ///< residual over reaction forces
+  double tolerance;            ///< residual over reaction forces
   int max_cg_iterations;
-  double rebuild_growth;      ///< the preconditioner is rebuilt when iterations exceed this times those after its set-up
+  double rebuild_growth;  ///< the preconditioner is rebuilt when iterations exceed this times those after its set-up
   Teuchos::ParameterList belos, muelu;  ///< overrides, free-form
 
-  int output_every;           ///< fields are written every so many increments, at every break, and at the last one
+  int output_every;  ///< fields are written every so many increments, at every break, and at the last one
   std::vector<std::string> reactions;  ///< groups whose reaction is recorded; default: all with prescribed displacement
 
-  Teuchos::ParameterList resolved;     ///< every parameter with its value, defaults filled in
+  Teuchos::ParameterList resolved;  ///< every parameter with its value, defaults filled in
 };
 
 /// The reference: every parameter with default, documentation and validator. Sublists whose entries the user names

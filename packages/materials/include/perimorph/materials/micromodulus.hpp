@@ -27,7 +27,8 @@ template <int dim>
 Micromodulus calibrate(ElasticModel model, double youngs_modulus, double characteristic_length, double horizon);
 
 /// Energy per new crack area of all bonds that cross it, broken at the critical stretch, [energy / area]:
-/// G_c = s_c^2 tau0 I6 in 2D, s_c^2 tau0 I7 pi/2 in 3D (bond energy 1/2 c0 s^2 r^4, integrated as Silling and Askari 2005).
+/// G_c = s_c^2 tau0 I6 in 2D, s_c^2 tau0 I7 pi/2 in 3D (bond energy 1/2 c0 s^2 r^4, integrated as Silling and Askari
+/// 2005).
 template <int dim>
 double fracture_energy(const Micromodulus& micromodulus, double critical_stretch);
 

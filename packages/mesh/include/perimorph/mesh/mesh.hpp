@@ -34,11 +34,12 @@ struct Mesh {
 
   // Elements, indexed by local element.
   std::vector<ElementType> types;
-  std::vector<int> blocks;             ///< index into block_names
-  std::vector<GlobalId> element_ids;   ///< 0-based, contiguous over the whole mesh
-  std::vector<int> element_owners;     ///< rank
-  std::vector<int> first_corner = {0};  ///< corners of element e: corners[first_corner[e]] ... corners[first_corner[e+1]-1]
-  std::vector<int> corners;            ///< local node of each corner
+  std::vector<int> blocks;            ///< index into block_names
+  std::vector<GlobalId> element_ids;  ///< 0-based, contiguous over the whole mesh
+  std::vector<int> element_owners;    ///< rank
+  std::vector<int> first_corner = {
+      0};                    ///< corners of element e: corners[first_corner[e]] ... corners[first_corner[e+1]-1]
+  std::vector<int> corners;  ///< local node of each corner
 
   // Groups: every physical group of the mesh's own dimension is a block, one of lower dimension a node set, one of
   // dimension dim-1 also a side set. All names are known on all ranks, also where the local list is empty.

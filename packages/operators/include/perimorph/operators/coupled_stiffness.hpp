@@ -16,15 +16,16 @@ struct BondSelection {
 };
 inline constexpr BondSelection all_bonds = {std::numeric_limits<double>::infinity(), 1.};
 
-/// The bonds up to a length, stiffened so that Sum k |xi|^4, and with it the stiffness against smooth strains, is that of
-/// all bonds. Their matrix has far fewer entries and is nearly as good to build a preconditioner from. Collective.
+/// The bonds up to a length, stiffened so that Sum k |xi|^4, and with it the stiffness against smooth strains, is that
+/// of all bonds. Their matrix has far fewer entries and is nearly as good to build a preconditioner from. Collective.
 template <int dim>
 BondSelection short_range(const CoupledModel<dim>& model, const base::Comm& comm, double reach);
 
-/// The coupled stiffness K of WHL19, eq. 22, as a CRS matrix with the rows of this rank's degrees of freedom; every rank
-/// computes its rows whole. Prescribed degrees of freedom are eliminated symmetrically (row and column zero, a stiffness
-/// on the diagonal). The nodes of discontinuous elements are anchored by a vanishing spring, anchor * diagonal, so that
-/// the matrix stays definite when pieces come to float; since it acts on corrections only, it carries no force.
+/// The coupled stiffness K of WHL19, eq. 22, as a CRS matrix with the rows of this rank's degrees of freedom; every
+/// rank computes its rows whole. Prescribed degrees of freedom are eliminated symmetrically (row and column zero, a
+/// stiffness on the diagonal). The nodes of discontinuous elements are anchored by a vanishing spring, anchor *
+/// diagonal, so that the matrix stays definite when pieces come to float; since it acts on corrections only, it carries
+/// no force.
 template <int dim>
 class CoupledStiffness {
  public:
@@ -45,12 +46,12 @@ class CoupledStiffness {
   CoupledModel<dim> model_;
   BondSelection selection_;
   std::vector<char> has_selected_bonds_;  ///< per pair of elements
-  std::vector<char> fixed_;           ///< per local degree of freedom: prescribed
-  std::vector<std::size_t> first_;    ///< node-block rows: position of the first block of each owned node's row
-  std::vector<int> columns_;          ///< nodes, ascending in a row
-  std::vector<std::size_t> diagonal_;  ///< position of each row's diagonal block
+  std::vector<char> fixed_;               ///< per local degree of freedom: prescribed
+  std::vector<std::size_t> first_;        ///< node-block rows: position of the first block of each owned node's row
+  std::vector<int> columns_;              ///< nodes, ascending in a row
+  std::vector<std::size_t> diagonal_;     ///< position of each row's diagonal block
   Teuchos::RCP<Matrix> matrix_;
-  double* values_ = nullptr;          ///< of the matrix
+  double* values_ = nullptr;  ///< of the matrix
 
   using Block = Eigen::Matrix<double, dim, dim>;
   void find_pattern();

@@ -9,8 +9,8 @@ namespace perimorph::operators {
 /// Element averages for output, one entry per owned element.
 template <int dim>
 struct ElementFields {
-  std::vector<double> energy;               ///< strain energy in the element: local + half of each of its bonds', [energy]
-  std::vector<base::Voigt<dim>> stress;     ///< E(x) eps + 1/2 Sum k (xi . eta) xi (x) xi / w, [stress]
+  std::vector<double> energy;            ///< strain energy in the element: local + half of each of its bonds', [energy]
+  std::vector<base::Voigt<dim>> stress;  ///< E(x) eps + 1/2 Sum k (xi . eta) xi (x) xi / w, [stress]
 };
 
 /// @param u on all local degrees of freedom; @param at_points B u (displacements_at_points). Local.

@@ -18,10 +18,11 @@ struct SolverParameters {
 /// preconditioner is kept as long as it serves: then refreshed, then rebuilt.
 class LinearSolver {
  public:
-  LinearSolver(SolverParameters parameters, base::Profile& profile) : parameters_(std::move(parameters)), profile_(profile) {}
+  LinearSolver(SolverParameters parameters, base::Profile& profile)
+      : parameters_(std::move(parameters)), profile_(profile) {}
 
-  /// A new operator: the preconditioner is rebuilt before the next solve, from a matrix that is near to the operator, or
-  /// the same. Local.
+  /// A new operator: the preconditioner is rebuilt before the next solve, from a matrix that is near to the operator,
+  /// or the same. Local.
   void set_operator(const Teuchos::RCP<Operator>& linear_operator, const Teuchos::RCP<Matrix>& preconditioner_matrix,
                     const NearNullSpace& near_null_space);
 

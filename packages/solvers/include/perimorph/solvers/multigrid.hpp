@@ -23,8 +23,8 @@ struct NearNullSpace {
 template <int dim>
 NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Point<dim>>& coordinates);
 
-/// Smoothed-aggregation multigrid (MueLu) for elasticity, with symmetric Gauss-Seidel on the coarsest level (KLU2 is wrong
-/// on more than one rank). Made for one matrix pattern.
+/// Smoothed-aggregation multigrid (MueLu) for elasticity, with symmetric Gauss-Seidel on the coarsest level (KLU2 is
+/// wrong on more than one rank). Made for one matrix pattern.
 class Multigrid {
  public:
   /// Chebyshev polynomials (fast), or symmetric Gauss-Seidel (robust), which cannot make the preconditioner indefinite.
