@@ -206,7 +206,7 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
     show_line(increment, body);
   });
   broken_before_ = broken;
-  seconds_before_ = profile_.elapsed();
+  seconds_before_ = last_word_ = profile_.elapsed();
 }
 
 /// In the order of the columns of history.csv after "increment". Collective.
@@ -277,6 +277,13 @@ void Results<dim>::show_line(int increment, const Body<dim>& body) {
 
 template <int dim>
 void Results<dim>::show_progress(int increment, const Body<dim>& body) {
+  constexpr double patience = 60.;  // seconds without a word
+  if (profile_.elapsed() - last_word_ > patience) {
+    last_word_ = profile_.elapsed();
+    voice_.log->info("       in step {}: {} solves, {} broken bonds, {} discontinuous elements, {:.0f} s", increment,
+                     body.counts().linear_solves, body.counts().broken_bonds, body.counts().dgfe_elements,
+                     profile_.elapsed());
+  }
   if (!voice_.shows_progress) return;
   constexpr int width = 30;
   const int done = width * (increment - 1) / last_increment_;

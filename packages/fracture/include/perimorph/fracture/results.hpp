@@ -54,7 +54,7 @@ class Results {
   std::unique_ptr<io::ExodusSeries<dim>> series_;
   base::GlobalId broken_before_ = 0, topology_written_ = 0;
   int first_break_ = 0;
-  double seconds_before_ = 0.;
+  double seconds_before_ = 0., last_word_ = 0.;  ///< elapsed at the last accepted increment, at the last line
   base::GlobalId total_solves_ = 0, total_iterations_ = 0;
 
   /// Rank 0: place in the file of each element in the order of gathering.
