@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"UnknownParameter", solver,
                 solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
-                R"xml(:57: /Solver/Tolerence: unknown parameter; allowed are "Operator", "Tolerance", )xml"},
+                R"xml(:57: /Solver/Tolerence: unknown parameter; allowed are "Operator", "Preconditioner Matrix", )xml"},
         Mistake{"NearestParameter", solver,
                 solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
                 R"xml( - did you mean "Tolerance"?)xml"},
