@@ -192,8 +192,8 @@ void Body<dim>::solve() {
   // to.
   constexpr double negligible = 1e-4;
 
-  loads_ = problem_.loads.forces(mesh_, points_, *dofs_, load_factor_);
-  if (!forces_are_current_) {
+  if (!forces_are_current_) {  // a new load or topology: loads_ too
+    loads_ = problem_.loads.forces(mesh_, points_, *dofs_, load_factor_);
     prescribe_displacements();
     update_forces();
   }

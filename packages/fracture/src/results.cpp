@@ -145,7 +145,7 @@ std::vector<base::Point<dim>> own_coordinates(const Body<dim>& body) {
   return own;
 }
 
-/// A trivially copyable stand-in for an Eigen vector.
+/// All ranks' points on rank 0. They travel as numbers: Eigen's vectors are not trivially copyable.
 template <int dim>
 std::vector<base::Point<dim>> gather_points(const base::Comm& comm, const std::vector<base::Point<dim>>& own) {
   std::vector<double> flat;
