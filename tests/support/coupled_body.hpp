@@ -7,7 +7,8 @@
 #include <Tpetra_CrsMatrix.hpp>
 
 #include "perimorph/operators/coupled_stiffness.hpp"
-#include "perimorph/operators/internal_force.hpp"
+#include "perimorph/operators/fields.hpp"
+#include "perimorph/operators/matrix_free_stiffness.hpp"
 #include "support/meshes.hpp"
 
 namespace perimorph::tests {
@@ -70,13 +71,15 @@ struct CoupledBody {
     const auto exchange = discretization::element_exchange(*comm, mesh);
     exchange.update(classes);
     exchange.update(discontinuous);
-    elasticity.update(mesh, points, bonds, alpha, classes);
+    elasticity.update(mesh, points, bonds, alpha, classes, discontinuous);
     dofs = std::make_unique<discretization::DofMap<2>>(comm, mesh, discretization::corner_exchange(*comm, mesh),
                                                        discontinuous);
-    stiffness = std::make_unique<operators::CoupledStiffness<2>>(model(), dirichlet, discontinuous);
+    stiffness = std::make_unique<operators::CoupledStiffness<2>>(model(), supports());
   }
 
   operators::CoupledModel<2> model() const { return {mesh, points, bonds, alpha, elasticity, *dofs}; }
+
+  operators::Supports<2> supports() const { return {model(), dirichlet, discontinuous}; }
 
   /// The matrix, dense; on one rank.
   Eigen::MatrixXd dense() const {

@@ -56,7 +56,7 @@ void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibi
       // A bond inside one element is inside the body: elements are convex.
       if (a != b && Visibility<dim>::blocks(obstacles, points_.position(i), points_.position(j))) continue;
       ends_.push_back(static_cast<std::uint16_t>(qa * elements::max_points + qb));
-      stiffness_.push_back(c0 * points_.weight(i) * points_.weight(j));
+      stiffness_.push_back(static_cast<float>(c0 * points_.weight(i) * points_.weight(j)));
       family_volume_[i] += points_.weight(j);
       family_volume_[j] += points_.weight(i);
     }

@@ -8,8 +8,9 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/distribute.hpp"
+#include "perimorph/operators/broken_bonds.hpp"
 #include "perimorph/operators/fields.hpp"
-#include "perimorph/operators/internal_force.hpp"
+
 
 namespace perimorph::fracture {
 
@@ -91,7 +92,7 @@ void Body<dim>::update_topology() {
     const bool split = find_discontinuous();
     if (is_first) check_pre_cracks();
     if (!split && !alpha_changed) return;
-    if (alpha_changed) elasticity_.update(mesh_, points_, bonds_, alpha_, classes_);
+    elasticity_.update(mesh_, points_, bonds_, alpha_, classes_, discontinuous_);
     if (split || is_first) renumber();
   }
   assemble();
@@ -101,17 +102,25 @@ void Body<dim>::update_topology() {
 
 template <int dim>
 void Body<dim>::assemble() {
-  using Stiffness = operators::CoupledStiffness<dim>;
+  using Matrix = operators::CoupledStiffness<dim>;
   const auto timer = profile_.measure(Phase::assemble);
-  stiffness_ = std::make_unique<Stiffness>(model(), dirichlet_, discontinuous_);
-  if (options_.preconditioner_matrix == PreconditionerMatrix::short_range) {
+  const operators::Supports<dim> supports(model(), dirichlet_, discontinuous_);
+  stiffness_ = Teuchos::rcp(new operators::MatrixFreeStiffness<dim>(model(), supports));
+  const bool is_short_range = options_.preconditioner_matrix == PreconditionerMatrix::short_range;
+  const bool is_crs = options_.operator_form == OperatorForm::crs;
+  if (is_short_range) {
     const auto selection = operators::short_range(model(), *comm_, options_.short_range_cut_off);
-    short_range_ = std::make_unique<Stiffness>(model(), dirichlet_, discontinuous_, selection);
+    short_range_ = std::make_unique<Matrix>(model(), supports, selection);
   }
+  if (is_crs || !is_short_range) matrix_ = std::make_unique<Matrix>(model(), supports);
+
   std::vector<Point<dim>> coordinates;
   for (int n = 0; n < dofs_->n_owned_nodes(); ++n) coordinates.push_back(mesh_.coordinates[dofs_->reference_node(n)]);
-  solver_.set_operator(stiffness_->linear_operator(), (short_range_ ? short_range_ : stiffness_)->matrix(),
-                       solvers::rigid_body_modes<dim>(*stiffness_->matrix(), coordinates));
+  const auto preconditioner_matrix = (is_short_range ? short_range_ : matrix_)->matrix();
+  Teuchos::RCP<solvers::Operator> linear_operator = stiffness_;
+  if (is_crs) linear_operator = matrix_->linear_operator();
+  solver_.set_operator(linear_operator, preconditioner_matrix,
+                       solvers::rigid_body_modes<dim>(*preconditioner_matrix, coordinates));
 }
 
 template <int dim>
@@ -235,7 +244,7 @@ template <int dim>
 void Body<dim>::update_forces() {
   const auto timer = profile_.measure(Phase::residual);
   at_points_ = operators::displacements_at_points(model(), displacement());
-  force_ = operators::internal_force(model(), displacement(), at_points_);
+  force_ = stiffness_->internal_force(displacement());
   forces_are_current_ = true;
 }
 
@@ -278,6 +287,7 @@ GlobalId Body<dim>::break_bonds() {
   if (std::isinf(problem_.critical_stretch)) return 0;
   const auto broken = bonds_.break_overstretched(at_points_, problem_.critical_stretch, classes_);
   stiffness_->subtract(broken);
+  if (matrix_) matrix_->subtract(broken);
   if (short_range_) short_range_->subtract(broken);
   operators::subtract_bond_forces(model(), broken, at_points_, force_);
   dissipated_ += base::sum(*comm_, operators::bond_energy(model(), broken, at_points_));
@@ -346,6 +356,7 @@ BodyOptions body_options(const Case& input) {
   options.growth_inner_radius = input.growth_inner_radius;
   options.growth_outer_radius = input.growth_outer_radius;
   options.tolerance = input.tolerance;
+  options.operator_form = input.operator_form;
   options.preconditioner_matrix = input.preconditioner_matrix;
   options.short_range_cut_off = input.short_range_cut_off;
   options.solver = {input.max_cg_iterations, input.rebuild_growth, input.belos, input.muelu};

@@ -29,7 +29,8 @@ inline constexpr std::array<Choice<PeridynamicStiffness>, 2> peridynamic_stiffne
     {{"Dropped", PeridynamicStiffness::dropped}, {"Kept", PeridynamicStiffness::kept}}};
 inline constexpr std::array<Choice<PreconditionerMatrix>, 2> preconditioner_matrices{
     {{"Coupled", PreconditionerMatrix::coupled}, {"Short-Range", PreconditionerMatrix::short_range}}};
-inline constexpr std::array<Choice<OperatorForm>, 1> operator_forms{{{"CRS", OperatorForm::crs}}};
+inline constexpr std::array<Choice<OperatorForm>, 2> operator_forms{
+    {{"CRS", OperatorForm::crs}, {"Matrix-Free", OperatorForm::matrix_free}}};
 inline constexpr std::array<Choice<int>, 3> components{{{"x", 0}, {"y", 1}, {"z", 2}}};
 
 template <class E, std::size_t n>

@@ -10,16 +10,16 @@
 namespace perimorph::operators {
 
 template <int dim>
-CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const discretization::Dirichlet<dim>& dirichlet,
-                                        const std::vector<char>& discontinuous, const BondSelection& selection)
-    : model_(model), selection_(selection), has_selected_bonds_(model.bonds.n_pairs(), 0) {
+CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const Supports<dim>& supports,
+                                        const BondSelection& selection)
+    : model_(model),
+      selection_(selection),
+      has_selected_bonds_(model.bonds.n_pairs(), 0),
+      fixed_(supports.fixed) {
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1) && !has_selected_bonds_[p]; ++b) {
       has_selected_bonds_[p] = is_selected(model.bonds.pair(p), b);
     }
-  }
-  for (int n = 0; n < model.dofs.n_nodes(); ++n) {
-    for (int c = 0; c < dim; ++c) fixed_.push_back(dirichlet.prescribes(model.dofs.reference_node(n), c));
   }
   find_pattern();
   make_matrix();
@@ -27,7 +27,7 @@ CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const di
     if (model.bonds.is_active(e) && !model.elasticity.is_zero(e)) add_element(e);
   }
   add_springs();
-  add_anchors(discontinuous);
+  add_diagonal(supports.diagonal);
 }
 
 template <int dim>
@@ -109,8 +109,7 @@ void CoupledStiffness<dim>::add_block(int row, int column, const Block& block) {
       values_ + first_[row] * dim * dim + static_cast<std::size_t>(std::lower_bound(begin, end, column) - begin) * dim;
   for (int c = 0; c < dim; ++c) {
     for (int d = 0; d < dim; ++d) {
-      const bool eliminated = fixed_[row * dim + c] || fixed_[column * dim + d];
-      if (!eliminated || (row == column && c == d)) target[c * width + d] += block(c, d);
+      if (!fixed_[row * dim + c] && !fixed_[column * dim + d]) target[c * width + d] += block(c, d);
     }
   }
 }
@@ -242,20 +241,11 @@ base::Point<dim> CoupledStiffness<dim>::bond_vector(const bonds::ElementPair& pa
 }
 
 template <int dim>
-void CoupledStiffness<dim>::add_anchors(const std::vector<char>& discontinuous) {
-  std::vector<char> anchored(model_.dofs.n_owned_nodes(), 0);
-  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
-    if (!discontinuous[e]) continue;
-    for (int k = 0; k < model_.mesh.n_corners(e); ++k) {
-      const int node = model_.dofs.nodes_of(e)[k];
-      if (node < model_.dofs.n_owned_nodes()) anchored[node] = 1;
-    }
-  }
+void CoupledStiffness<dim>::add_diagonal(const std::vector<double>& diagonal) {
   for (int row = 0; row < model_.dofs.n_owned_nodes(); ++row) {
-    if (!anchored[row]) continue;
     const std::size_t width = (first_[row + 1] - first_[row]) * dim;
     for (int c = 0; c < dim; ++c) {
-      values_[first_[row] * dim * dim + c * width + (diagonal_[row] - first_[row]) * dim + c] *= 1. + anchor;
+      values_[first_[row] * dim * dim + c * width + (diagonal_[row] - first_[row]) * dim + c] += diagonal[row * dim + c];
     }
   }
 }

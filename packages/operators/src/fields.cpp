@@ -50,6 +50,23 @@ void add_bonds_part(const CoupledModel<dim>& model, const std::vector<Point<dim>
 }  // namespace
 
 template <int dim>
+std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, const double* u) {
+  std::vector<Point<dim>> at_points(model.points.size(), Point<dim>::Zero());
+  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+    if (model.bonds.pairs_of(e).empty()) continue;
+    const int* nodes = model.dofs.nodes_of(e);
+    for (int q = 0; q < model.points.count(e); ++q) {
+      const auto& shape = model.points.shape(e, q);
+      Point<dim>& value = at_points[model.points.first(e) + q];
+      for (int k = 0; k < model.mesh.n_corners(e); ++k) {
+        value += shape[k] * Eigen::Map<const Point<dim>>(u + nodes[k] * dim);
+      }
+    }
+  }
+  return at_points;
+}
+
+template <int dim>
 ElementFields<dim> element_fields(const CoupledModel<dim>& model, const double* u,
                                   const std::vector<Point<dim>>& at_points) {
   const auto n = static_cast<std::size_t>(model.mesh.n_owned_elements);
@@ -66,25 +83,10 @@ ElementFields<dim> element_fields(const CoupledModel<dim>& model, const double* 
   return fields;
 }
 
-template <int dim>
-double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t>& bonds,
-                   const std::vector<Point<dim>>& at_points) {
-  double energy = 0.;
-  for (const auto b : bonds) {
-    const auto [first, second] = model.bonds.pair(model.bonds.pair_of(b));
-    if (first >= model.mesh.n_owned_elements) continue;
-    const int i = model.points.first(first) + model.bonds.first_end(b);
-    const int j = model.points.first(second) + model.bonds.second_end(b);
-    const Point<dim> xi = model.points.position(j) - model.points.position(i);
-    const double stretch = xi.dot(at_points[j] - at_points[i]);
-    energy += 0.5 * model.spring(b, i, j) * stretch * stretch;
-  }
-  return energy;
-}
-
 template ElementFields<2> element_fields<2>(const CoupledModel<2>&, const double*, const std::vector<Point<2>>&);
 template ElementFields<3> element_fields<3>(const CoupledModel<3>&, const double*, const std::vector<Point<3>>&);
-template double bond_energy<2>(const CoupledModel<2>&, const std::vector<std::size_t>&, const std::vector<Point<2>>&);
-template double bond_energy<3>(const CoupledModel<3>&, const std::vector<std::size_t>&, const std::vector<Point<3>>&);
+
+template std::vector<Point<2>> displacements_at_points<2>(const CoupledModel<2>&, const double*);
+template std::vector<Point<3>> displacements_at_points<3>(const CoupledModel<3>&, const double*);
 
 }  // namespace perimorph::operators

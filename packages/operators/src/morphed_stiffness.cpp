@@ -19,7 +19,8 @@ base::Stiffness<dim> positive_part(const base::Stiffness<dim>& tensor) {
 template <int dim>
 void MorphedStiffness<dim>::update(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                    const bonds::BondFamilies<dim>& bonds, const morphing::MorphingField<dim>& alpha,
-                                   const std::vector<morphing::ElementClass>& classes) {
+                                   const std::vector<morphing::ElementClass>& classes,
+                                   const std::vector<char>& discontinuous) {
   using morphing::ElementClass;
   first_.assign(mesh.n_elements(), -1);
   is_zero_.assign(mesh.n_elements(), 0);
@@ -42,7 +43,10 @@ void MorphedStiffness<dim>::update(const mesh::Mesh<dim>& mesh, const elements::
       if (!is_zero_[second]) reduced_[first_[second] + qj] -= term / points.weight(j);
     }
   }
-  for (auto& e : reduced_) e = positive_part<dim>(e);
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    if (first_[e] < 0 || !discontinuous[e] || is_zero_[e]) continue;
+    for (int q = 0; q < points.count(e); ++q) reduced_[first_[e] + q] = positive_part<dim>(reduced_[first_[e] + q]);
+  }
 }
 
 template class MorphedStiffness<2>;

@@ -86,8 +86,8 @@ class CoupledStiffness : public ::testing::TestWithParam<std::tuple<PeridynamicS
 
 TEST_P(CoupledStiffness, EqualsTheBruteForceSumOverAllPairsOfPoints) {
   const Eigen::MatrixXd expected = reference_stiffness(body);
-  // The anchor of discontinuous elements is 1e-8 of their diagonals.
-  EXPECT_LT((body.dense() - expected).cwiseAbs().maxCoeff(), 2e-8 * expected.cwiseAbs().maxCoeff());
+  // Bonds are stored in single precision; anchors are 1e-8 of the diagonals.
+  EXPECT_LT((body.dense() - expected).cwiseAbs().maxCoeff(), 1e-7 * expected.cwiseAbs().maxCoeff());
 }
 
 TEST_P(CoupledStiffness, IsSymmetricAndPositiveWithThreeRigidModesAtZeroEnergy) {
@@ -99,15 +99,6 @@ TEST_P(CoupledStiffness, IsSymmetricAndPositiveWithThreeRigidModesAtZeroEnergy) 
   EXPECT_GT(eigenvalues[3], 1e-5 * largest);
 }
 
-TEST_P(CoupledStiffness, TimesADisplacementIsTheMatrixFreeInternalForce) {
-  Eigen::VectorXd u(2 * body.dofs->n_nodes());
-  for (int i = 0; i < u.size(); ++i) u[i] = std::sin(1.7 * i);
-  const auto force =
-      operators::internal_force(body.model(), u.data(), operators::displacements_at_points(body.model(), u.data()));
-  const Eigen::VectorXd expected = body.dense() * u;
-  const Eigen::Map<const Eigen::VectorXd> actual(force.data(), u.size());
-  EXPECT_LT((actual - expected).norm(), 2e-8 * expected.norm());  // the anchors'
-}
 
 TEST_P(CoupledStiffness, WithoutBrokenBondsEqualsTheOneAssembledAfterBreaking) {
   const std::vector<double> zero(2 * body.dofs->n_nodes(), 0.);
@@ -122,8 +113,8 @@ TEST_P(CoupledStiffness, WithoutBrokenBondsEqualsTheOneAssembledAfterBreaking) {
   ASSERT_GT(broken.size(), 100u);
   body.stiffness->subtract(broken);
   const Eigen::MatrixXd updated = body.dense();
-  body.stiffness = std::make_unique<operators::CoupledStiffness<2>>(body.model(), body.dirichlet, body.discontinuous);
-  EXPECT_LT((updated - body.dense()).cwiseAbs().maxCoeff(), 2e-8 * updated.cwiseAbs().maxCoeff());  // the anchors'
+  body.stiffness = std::make_unique<operators::CoupledStiffness<2>>(body.model(), body.supports());
+  EXPECT_LT((updated - body.dense()).cwiseAbs().maxCoeff(), 1e-13 * updated.cwiseAbs().maxCoeff());
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, CoupledStiffness,
@@ -131,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, CoupledStiffness,
                                                               PeridynamicStiffness::kept),
                                             ::testing::Bool(), ::testing::Bool()));
 
-TEST(MorphedStiffness, EqualsTheDiscreteSumOfEquation16ClippedToPositive) {
+TEST(MorphedStiffness, EqualsTheDiscreteSumOfEquation16) {
   const CoupledBody body(hybrid(PeridynamicStiffness::kept, false));
   const auto points = all_points(body);
   int n_reduced = 0;
@@ -144,13 +135,24 @@ TEST(MorphedStiffness, EqualsTheDiscreteSumOfEquation16ClippedToPositive) {
       const Eigen::Vector3d v(xi[0] * xi[0], xi[1] * xi[1], xi[0] * xi[1]);
       e -= factor * v * v.transpose();
     }
-    const Eigen::SelfAdjointEigenSolver<base::Stiffness<2>> eigen(e);
-    const base::Stiffness<2> clipped =
-        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() * eigen.eigenvectors().transpose();
-    EXPECT_LT((body.elasticity.at(x.element, x.q) - clipped).norm(), 1e-12 * body.e0.norm());
+    EXPECT_LT((body.elasticity.at(x.element, x.q) - e).norm(), 1e-7 * body.e0.norm());  // bonds in single precision
     n_reduced += (e - body.e0).norm() > 0.01 * body.e0.norm();
   }
   EXPECT_GT(n_reduced, 100);  // the zone is there
+}
+
+TEST(MorphedStiffness, IsPositiveInDiscontinuousElements) {
+  const CoupledBody body(hybrid(PeridynamicStiffness::kept, true));
+  int n_indefinite = 0;
+  for (int e = 0; e < body.mesh.n_elements(); ++e) {
+    for (int q = 0; q < body.points.count(e); ++q) {
+      const Eigen::SelfAdjointEigenSolver<base::Stiffness<2>> eigen(body.elasticity.at(e, q));
+      const bool is_positive = eigen.eigenvalues().minCoeff() > -1e-12 * body.e0.norm();
+      EXPECT_TRUE(is_positive || !body.discontinuous[e]);
+      n_indefinite += !is_positive;
+    }
+  }
+  EXPECT_GT(n_indefinite, 0);  // elsewhere, so that the clipping is seen
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ class BondFamilies {
   /// Points at the bond's ends, counted within their elements.
   int first_end(Bond b) const { return ends_[b] / elements::max_points; }
   int second_end(Bond b) const { return ends_[b] % elements::max_points; }
-  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking.
+  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; rounded to
+  /// single precision, so that every form of the operator has the same bonds.
   double stiffness(Bond b) const { return stiffness_[b]; }
   bool broken(Bond b) const { return broken_[b]; }
   void set_broken(int pair, Bond b);
@@ -79,7 +80,7 @@ class BondFamilies {
   std::vector<Bond> first_bond_ = {0};
   std::vector<std::vector<int>> pairs_of_;
   std::vector<std::uint16_t> ends_;
-  std::vector<double> stiffness_;
+  std::vector<float> stiffness_;
   std::vector<std::uint8_t> broken_;
   std::vector<double> family_volume_, lost_volume_;
   std::vector<char> damaged_;

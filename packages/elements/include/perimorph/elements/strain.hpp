@@ -1,6 +1,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 #include "perimorph/elements/material_points.hpp"
 
@@ -17,6 +18,13 @@ void with_corners(int n_corners, Function&& function) {
   }
 }
 
+/// The two axes of a shear component in Voigt notation: xy in 2D; yz, xz, xy in 3D.
+template <int dim>
+constexpr std::pair<int, int> shear_axes(int component) {
+  if (dim == 2) return {0, 1};
+  return {component == 3 ? 1 : 0, component == 5 ? 1 : 2};
+}
+
 /// B: strain (Voigt) = B d, with d the corner displacements node by node, (n_voigt, dim * n).
 /// @param g shape function gradients, (dim, n), [1/length]
 template <int dim, int n>
@@ -26,9 +34,8 @@ Eigen::Matrix<double, base::n_voigt<dim>, dim * n> strain_matrix(
   b.setZero();
   for (int k = 0; k < n; ++k) {
     for (int c = 0; c < dim; ++c) b(c, k * dim + c) = g(c, k);
-    // Shear components: xy in 2D; yz, xz, xy in 3D.
     for (int v = dim; v < base::n_voigt<dim>; ++v) {
-      const int i = dim == 2 ? 0 : (v == 3 ? 1 : 0), j = dim == 2 ? 1 : (v == 5 ? 1 : 2);
+      const auto [i, j] = shear_axes<dim>(v);
       b(v, k * dim + i) = g(j, k);
       b(v, k * dim + j) = g(i, k);
     }

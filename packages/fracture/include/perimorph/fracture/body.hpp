@@ -6,6 +6,7 @@
 #include "perimorph/base/profile.hpp"
 #include "perimorph/fracture/problem.hpp"
 #include "perimorph/operators/coupled_stiffness.hpp"
+#include "perimorph/operators/matrix_free_stiffness.hpp"
 #include "perimorph/solvers/linear_solver.hpp"
 
 namespace perimorph::fracture {
@@ -17,6 +18,7 @@ struct BodyOptions {
   operators::PeridynamicStiffness peridynamic_stiffness;
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o, [length]
   double tolerance;                                 ///< residual over reaction forces
+  OperatorForm operator_form = OperatorForm::matrix_free;
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
   double short_range_cut_off = 0.;  ///< [length]
   solvers::SolverParameters solver;
@@ -96,8 +98,9 @@ class Body {
   std::vector<morphing::ElementClass> classes_;
   std::vector<char> discontinuous_, flagged_;
   std::unique_ptr<discretization::DofMap<dim>> dofs_;
-  std::unique_ptr<operators::CoupledStiffness<dim>> stiffness_;
-  std::unique_ptr<operators::CoupledStiffness<dim>> short_range_;  ///< for the preconditioner; null: stiffness_ serves
+  Teuchos::RCP<operators::MatrixFreeStiffness<dim>> stiffness_;
+  // The same as a matrix, and the short-range matrix; null if neither operator nor preconditioner needs them.
+  std::unique_ptr<operators::CoupledStiffness<dim>> matrix_, short_range_;
 
   using Vector = Tpetra::Vector<double>;
   Teuchos::RCP<Vector> owned_u_, all_u_, residual_, correction_;

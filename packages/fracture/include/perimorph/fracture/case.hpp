@@ -16,7 +16,7 @@ using operators::PeridynamicStiffness;
 enum class SeedShape { ball, box, everything };  ///< a ball is a circle in 2D, a sphere in 3D
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
-enum class OperatorForm { crs };
+enum class OperatorForm { crs, matrix_free };
 enum class PreconditionerMatrix { coupled, short_range };
 
 /// A first peridynamic zone: alpha = 1 inside, falling to 0 over the rim. Lengths in the mesh's unit.

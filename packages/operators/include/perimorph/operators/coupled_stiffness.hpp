@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "perimorph/operators/coupled_model.hpp"
+#include "perimorph/operators/supports.hpp"
 
 namespace perimorph::operators {
 
@@ -22,19 +22,15 @@ template <int dim>
 BondSelection short_range(const CoupledModel<dim>& model, const base::Comm& comm, double reach);
 
 /// The coupled stiffness K of WHL19, eq. 22, as a CRS matrix with the rows of this rank's degrees of freedom; every
-/// rank computes its rows whole. Prescribed degrees of freedom are eliminated symmetrically (row and column zero, a
-/// stiffness on the diagonal). The nodes of discontinuous elements are anchored by a vanishing spring, anchor *
-/// diagonal, so that the matrix stays definite when pieces come to float; since it acts on corrections only, it carries
-/// no force.
+/// rank computes its rows whole.
 template <int dim>
 class CoupledStiffness {
  public:
   using Matrix = Tpetra::CrsMatrix<double>;
-  static constexpr double anchor = 1e-8;
 
   /// Collective. The model is read again by subtract() and must outlive this.
-  CoupledStiffness(const CoupledModel<dim>& model, const discretization::Dirichlet<dim>& dirichlet,
-                   const std::vector<char>& discontinuous, const BondSelection& selection = all_bonds);
+  CoupledStiffness(const CoupledModel<dim>& model, const Supports<dim>& supports,
+                   const BondSelection& selection = all_bonds);
 
   const Teuchos::RCP<Matrix>& matrix() const { return matrix_; }
   Teuchos::RCP<Tpetra::Operator<double>> linear_operator() const;
@@ -66,7 +62,7 @@ class CoupledStiffness {
     return bond_vector(pair, bond).norm() <= selection_.reach;
   }
   Block spring_block(std::size_t bond, int first_point, int second_point) const;
-  void add_anchors(const std::vector<char>& discontinuous);
+  void add_diagonal(const std::vector<double>& diagonal);
 };
 
 }  // namespace perimorph::operators

@@ -6,6 +6,11 @@
 
 namespace perimorph::operators {
 
+/// Displacement at every point of the elements that have bonds (zero elsewhere): B u.
+/// @param u on all local degrees of freedom (copies too), [length]
+template <int dim>
+std::vector<base::Point<dim>> displacements_at_points(const CoupledModel<dim>& model, const double* u);
+
 /// Element averages for output, one entry per owned element.
 template <int dim>
 struct ElementFields {
@@ -17,11 +22,5 @@ struct ElementFields {
 template <int dim>
 ElementFields<dim> element_fields(const CoupledModel<dim>& model, const double* u,
                                   const std::vector<base::Point<dim>>& at_points);
-
-/// Energy stored in bonds just before they break, counted by the rank that owns a bond's first element:
-/// Sum 1/2 k (xi . eta)^2, [energy]. Local.
-template <int dim>
-double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t>& bonds,
-                   const std::vector<base::Point<dim>>& at_points);
 
 }  // namespace perimorph::operators

@@ -11,22 +11,26 @@ namespace perimorph::operators {
 enum class PeridynamicStiffness { dropped, kept };
 
 /// E(x) = E0 - 1/2 Sum_p c0 (alpha(x) + alpha(p))/2 xi (x) xi (x) xi (x) xi w_p   [WHL19, eq. 16], at material points,
-/// with the discrete sum over all visible bonds as they are before any breaks. E0 where there are no bonds. Clipped to
-/// positive semi-definite: on irregular meshes the sum exceeds E0 at single points, and K would become indefinite.
+/// with the discrete sum over all visible bonds as they are before any breaks. E0 where there are no bonds. On
+/// irregular meshes the sum exceeds E0 at single points; in discontinuous elements, which nothing else holds together,
+/// E(x) is clipped to positive semi-definite there.
 template <int dim>
 class MorphedStiffness {
  public:
   MorphedStiffness(const base::Stiffness<dim>& e0, PeridynamicStiffness policy) : e0_(e0), policy_(policy) {}
 
-  /// Recomputes all; needed after alpha or the bonds have grown. Right for active elements. Local.
+  /// Recomputes all; needed after alpha or the bonds have grown, or elements were split. Right for active elements. Local.
   void update(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
               const bonds::BondFamilies<dim>& bonds, const morphing::MorphingField<dim>& alpha,
-              const std::vector<morphing::ElementClass>& classes);
+              const std::vector<morphing::ElementClass>& classes, const std::vector<char>& discontinuous);
 
   /// E at a point, [stress].
   const base::Stiffness<dim>& at(int element, int q) const {
     return first_[element] < 0 ? e0_ : reduced_[first_[element] + q];
   }
+  const base::Stiffness<dim>& e0() const { return e0_; }
+  /// Whether E = E0 in the whole element.
+  bool is_e0(int element) const { return first_[element] < 0; }
   /// Whether E = 0 in the whole element.
   bool is_zero(int element) const { return is_zero_[element]; }
 

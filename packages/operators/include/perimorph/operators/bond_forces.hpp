@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "perimorph/operators/coupled_model.hpp"
+
+namespace perimorph::operators {
+
+/// B^T K_bonds B u without a matrix: gather displacements to the points, pull along every intact bond, spread the
+/// forces to the nodes. Four points of an element make a packet; the bonds between two packets are a mask of 16 bits
+/// and one single-precision number per bond, so that few bytes stream past per bond.
+template <int dim>
+class BondForces {
+ public:
+  /// Of the intact bonds. Local. The model is read again by subtract() and must outlive this.
+  explicit BondForces(const CoupledModel<dim>& model);
+
+  /// force += B^T K_bonds B u; both on all local degrees of freedom. Right on those that this rank owns.
+  void add(const double* u, double* force) const;
+
+  /// Takes newly broken bonds out. Local.
+  void subtract(const std::vector<std::size_t>& broken);
+
+  std::size_t n_bonds() const { return stiffness_.size(); }
+  std::size_t bytes() const;  ///< of memory
+
+ private:
+  struct Packet {
+    int element;
+    std::size_t shapes;  ///< position in shapes_ of the shape functions at its points, (n_corners, 4)
+  };
+  CoupledModel<dim> model_;
+  std::map<std::pair<const elements::ReferenceElement<dim>*, int>, std::size_t> shape_tables_;
+  std::vector<double> shapes_;
+  std::vector<Packet> packets_;
+  std::vector<double> positions_;        ///< per packet: (dim, 4)
+  std::vector<double> alpha_;            ///< per packet: (4), halved
+  std::vector<int> first_packet_;        ///< per element, -1 without bonds
+
+  // Blocks of bonds, from each packet to packets that come with it in a pair.
+  std::vector<std::size_t> first_block_, first_bond_;  ///< per packet
+  std::vector<int> second_;                            ///< per block: the other packet
+  std::vector<std::uint16_t> masks_;                   ///< per block: bit 4 i + j is the bond from point i to point j
+  std::vector<float> stiffness_;                       ///< c0 w w of each bond; zero if it has broken since
+
+  mutable std::vector<double> displacements_, forces_;  ///< per packet: (dim, 4)
+
+  std::size_t shapes_of(const elements::ReferenceElement<dim>& reference, int first_point);
+  void gather(const double* u) const;
+  void pull() const;
+  void spread(double* force) const;
+};
+
+}  // namespace perimorph::operators

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "perimorph/operators/coupled_model.hpp"
+
+namespace perimorph::operators {
+
+/// K_local u without a matrix: the forces of E(x), element by element. What it stores per element is the gradients of
+/// the shape functions, sqrt(w) dN/dx, which is less than an element matrix; four elements are computed at once.
+template <int dim>
+class LocalForces {
+ public:
+  /// Of the active elements with E != 0. Copies what it needs. Local.
+  explicit LocalForces(const CoupledModel<dim>& model);
+
+  /// force += K_local u; both on all local degrees of freedom. Right on those that this rank owns.
+  void add(const double* u, double* force) const;
+
+  std::size_t bytes() const;  ///< of memory
+
+ private:
+  /// Elements of one kind: of E0 everywhere, or each point with an E of its own. Four elements follow each other lane
+  /// by lane; an incomplete four is filled up with elements of no stiffness.
+  struct Group {
+    int n_corners, n_points;
+    bool has_own_stiffness;
+    std::vector<int> nodes;         ///< per four elements: (n_corners, 4)
+    std::vector<double> gradients;  ///< per four elements: (n_points, n_corners, dim, 4), [length^(dim/2 - 1)]
+    std::vector<double> stiffness;  ///< per four elements: (n_points, n_voigt (n_voigt + 1) / 2, 4), [stress]
+  };
+  base::Stiffness<dim> e0_;
+  std::vector<Group> groups_;
+
+  Group& group(int n_corners, int n_points, bool has_own_stiffness);
+  template <int n>
+  void add(const Group& group, const double* u, double* force) const;
+};
+
+}  // namespace perimorph::operators

@@ -1,0 +1,156 @@
+#include "perimorph/operators/local_forces.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "lanes.hpp"
+#include "perimorph/elements/strain.hpp"
+
+namespace perimorph::operators {
+
+namespace {
+
+template <int dim>
+constexpr int n_moduli = base::n_voigt<dim>*(base::n_voigt<dim> + 1) / 2;
+
+using LanesMap = Eigen::Map<const Lanes>;
+
+template <int dim, int n>
+using LaneMatrix = std::array<std::array<Lanes, dim>, n>;
+
+/// Strain (Voigt) in every lane, from gradients (n, dim) and corner displacements.
+template <int dim, int n>
+std::array<Lanes, base::n_voigt<dim>> strain(const double* gradients, const LaneMatrix<dim, n>& u) {
+  std::array<Lanes, base::n_voigt<dim>> result;
+  result.fill(Lanes::Zero());
+  for (int k = 0; k < n; ++k) {
+    const auto g = [&](int c) { return LanesMap(gradients + (k * dim + c) * n_lanes); };
+    for (int c = 0; c < dim; ++c) result[c] += g(c) * u[k][c];
+    for (int v = dim; v < base::n_voigt<dim>; ++v) {
+      const auto [i, j] = elements::shear_axes<dim>(v);
+      result[v] += g(j) * u[k][i] + g(i) * u[k][j];
+    }
+  }
+  return result;
+}
+
+/// force += B^T stress in every lane.
+template <int dim, int n>
+void add_divergence(const double* gradients, const std::array<Lanes, base::n_voigt<dim>>& stress,
+                    LaneMatrix<dim, n>& force) {
+  for (int k = 0; k < n; ++k) {
+    const auto g = [&](int c) { return LanesMap(gradients + (k * dim + c) * n_lanes); };
+    for (int c = 0; c < dim; ++c) force[k][c] += g(c) * stress[c];
+    for (int v = dim; v < base::n_voigt<dim>; ++v) {
+      const auto [i, j] = elements::shear_axes<dim>(v);
+      force[k][i] += g(j) * stress[v];
+      force[k][j] += g(i) * stress[v];
+    }
+  }
+}
+
+}  // namespace
+
+template <int dim>
+LocalForces<dim>::LocalForces(const CoupledModel<dim>& model) : e0_(model.elasticity.e0()) {
+  const auto is_filled = [](const Group& g, int n) { return g.nodes.size() % (n * n_lanes) == 0; };
+  std::vector<std::size_t> n_elements;  // in each group
+  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+    if (!model.bonds.is_active(e) || model.elasticity.is_zero(e)) continue;
+    const int n = model.mesh.n_corners(e), n_points = model.points.count(e);
+    Group& g = group(n, n_points, !model.elasticity.is_e0(e));
+    n_elements.resize(groups_.size(), 0);
+    const std::size_t position = n_elements[&g - groups_.data()]++;
+    const std::size_t four = position / n_lanes, lane = position % n_lanes;
+    if (lane == 0 && is_filled(g, n)) {
+      g.nodes.resize(g.nodes.size() + n * n_lanes, model.dofs.nodes_of(e)[0]);
+      g.gradients.resize(g.gradients.size() + n_points * n * dim * n_lanes, 0.);
+      if (g.has_own_stiffness) g.stiffness.resize(g.stiffness.size() + n_points * n_moduli<dim> * n_lanes, 0.);
+    }
+    for (int k = 0; k < n; ++k) g.nodes[(four * n + k) * n_lanes + lane] = model.dofs.nodes_of(e)[k];
+    for (int q = 0; q < n_points; ++q) {
+      const auto gradients = model.points.gradients(e, q);
+      const double root = std::sqrt(model.points.weight(model.points.first(e) + q));
+      double* target = g.gradients.data() + (four * n_points + q) * n * dim * n_lanes + lane;
+      for (int k = 0; k < n; ++k) {
+        for (int c = 0; c < dim; ++c) target[(k * dim + c) * n_lanes] = root * gradients(c, k);
+      }
+      if (!g.has_own_stiffness) continue;
+      double* modulus = g.stiffness.data() + (four * n_points + q) * n_moduli<dim> * n_lanes + lane;
+      for (int v = 0; v < base::n_voigt<dim>; ++v) {
+        for (int w = 0; w <= v; ++w, modulus += n_lanes) *modulus = model.elasticity.at(e, q)(v, w);
+      }
+    }
+  }
+}
+
+template <int dim>
+typename LocalForces<dim>::Group& LocalForces<dim>::group(int n_corners, int n_points, bool has_own_stiffness) {
+  for (auto& g : groups_) {
+    if (g.n_corners == n_corners && g.n_points == n_points && g.has_own_stiffness == has_own_stiffness) return g;
+  }
+  groups_.push_back({n_corners, n_points, has_own_stiffness, {}, {}, {}});
+  return groups_.back();
+}
+
+template <int dim>
+void LocalForces<dim>::add(const double* u, double* force) const {
+  for (const auto& g : groups_) {
+    elements::with_corners<dim>(g.n_corners, [&](auto corners) { add<decltype(corners)::value>(g, u, force); });
+  }
+}
+
+template <int dim>
+template <int n>
+void LocalForces<dim>::add(const Group& g, const double* u, double* force) const {
+  constexpr int n_voigt = base::n_voigt<dim>;
+  const double* gradients = g.gradients.data();
+  const double* moduli = g.stiffness.data();
+  for (std::size_t first = 0; first < g.nodes.size(); first += n * n_lanes) {
+    const int* nodes = g.nodes.data() + first;
+    LaneMatrix<dim, n> displacement, forces;
+    for (int k = 0; k < n; ++k) {
+      for (int c = 0; c < dim; ++c) {
+        forces[k][c].setZero();
+        for (int lane = 0; lane < n_lanes; ++lane) displacement[k][c][lane] = u[nodes[k * n_lanes + lane] * dim + c];
+      }
+    }
+    for (int q = 0; q < g.n_points; ++q, gradients += n * dim * n_lanes) {
+      const auto strains = strain<dim, n>(gradients, displacement);
+      std::array<Lanes, n_voigt> stresses;
+      stresses.fill(Lanes::Zero());
+      if (g.has_own_stiffness) {
+        for (int v = 0; v < n_voigt; ++v) {
+          for (int w = 0; w <= v; ++w, moduli += n_lanes) {
+            stresses[v] += LanesMap(moduli) * strains[w];
+            if (w != v) stresses[w] += LanesMap(moduli) * strains[v];
+          }
+        }
+      } else {
+        for (int v = 0; v < n_voigt; ++v) {
+          for (int w = 0; w < n_voigt; ++w) stresses[v] += e0_(v, w) * strains[w];
+        }
+      }
+      add_divergence<dim, n>(gradients, stresses, forces);
+    }
+    for (int k = 0; k < n; ++k) {
+      for (int lane = 0; lane < n_lanes; ++lane) {
+        for (int c = 0; c < dim; ++c) force[nodes[k * n_lanes + lane] * dim + c] += forces[k][c][lane];
+      }
+    }
+  }
+}
+
+template <int dim>
+std::size_t LocalForces<dim>::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& g : groups_) {
+    sum += g.nodes.size() * sizeof(int) + (g.gradients.size() + g.stiffness.size()) * sizeof(double);
+  }
+  return sum;
+}
+
+template class LocalForces<2>;
+template class LocalForces<3>;
+
+}  // namespace perimorph::operators

@@ -1,0 +1,102 @@
+// The stiffness without a matrix against the assembled one, on every number of ranks.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/coupled_body.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using Vector = Tpetra::Vector<double>;
+
+/// Irregular elements, a zone in the middle, a side held; 11 x 9 elements, so that fours of elements stay incomplete.
+Setup held(bool discontinuous, bool triangles) {
+  Setup setup{{11, 9, 11., 9., Point2::Zero(), 0.15, triangles}, 2.5, 0.5, {}};
+  setup.zones = {morphing::Zone<2>::ball({5., 4.}, 3., 4.5)};
+  setup.whole_zone_discontinuous = discontinuous;
+  setup.prescribed = {{"hold", "left", 0, {0., 0.}}, {"hold", "left", 1, {0., 0.}}};
+  return setup;
+}
+
+class MatrixFreeStiffness : public ::testing::TestWithParam<std::tuple<bool, bool>> {
+ protected:
+  CoupledBody body{std::apply(held, GetParam())};
+  operators::MatrixFreeStiffness<2> matrix_free{body.model(), body.supports()};
+
+  Vector wave() const {
+    Vector x(body.dofs->owned_dofs());
+    const auto values = x.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (std::size_t i = 0; i < x.getLocalLength(); ++i) {
+      values(i, 0) = std::sin(1.7 * static_cast<double>(x.getMap()->getGlobalElement(static_cast<int>(i))));
+    }
+    return x;
+  }
+
+  void expect_the_same_product() const {
+    const Vector x = wave();
+    Vector expected(x.getMap()), actual(x.getMap());
+    body.stiffness->matrix()->apply(x, expected);
+    matrix_free.apply(x, actual);
+    const double norm = expected.norm2();
+    actual.update(-1., expected, 1.);
+    EXPECT_LT(actual.norm2(), 1e-13 * norm);
+  }
+
+  /// Breaks some bonds between elements: the same on every rank.
+  std::vector<std::size_t> break_some() {
+    std::vector<std::size_t> broken;
+    for (int p = 0; p < body.bonds.n_pairs(); ++p) {
+      const auto [first, second] = body.bonds.pair(p);
+      if (first == second || (body.mesh.element_ids[first] + body.mesh.element_ids[second]) % 3 != 0) continue;
+      for (auto b = body.bonds.first_bond(p); b < body.bonds.first_bond(p + 1); ++b) {
+        if ((body.bonds.first_end(b) + body.bonds.second_end(b)) % 2 == 0) continue;
+        body.bonds.set_broken(p, b);
+        broken.push_back(b);
+      }
+    }
+    return broken;
+  }
+};
+
+TEST_P(MatrixFreeStiffness, AgreesWithTheMatrix) { expect_the_same_product(); }
+
+TEST_P(MatrixFreeStiffness, AgreesWithTheMatrixAfterBondsBreak) {
+  const auto broken = break_some();
+  body.stiffness->subtract(broken);
+  matrix_free.subtract(broken);
+  expect_the_same_product();
+}
+
+TEST_P(MatrixFreeStiffness, LeavesBrokenBondsOutWhenItIsMadeAnew) {
+  const std::size_t bytes = matrix_free.bytes();
+  body.stiffness->subtract(break_some());
+  const operators::MatrixFreeStiffness<2> anew(body.model(), body.supports());
+  EXPECT_LT(anew.bytes(), bytes);
+  const Vector x = wave();
+  Vector expected(x.getMap()), actual(x.getMap());
+  body.stiffness->matrix()->apply(x, expected);
+  anew.apply(x, actual);
+  const double norm = expected.norm2();
+  actual.update(-1., expected, 1.);
+  EXPECT_LT(actual.norm2(), 1e-13 * norm);
+}
+
+TEST_P(MatrixFreeStiffness, AddsToAScaledVector) {
+  const Vector x = wave();
+  Vector product(x.getMap()), actual(x.getMap());
+  matrix_free.apply(x, product);
+  actual.putScalar(3.);
+  matrix_free.apply(x, actual, Teuchos::NO_TRANS, -2., 0.5);
+  const auto values = actual.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto products = product.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t i = 0; i < x.getLocalLength(); ++i) {
+    EXPECT_NEAR(values(i, 0), 1.5 - 2. * products(i, 0), 1e-12 * (1. + std::abs(products(i, 0))));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, MatrixFreeStiffness, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
+
+}  // namespace
+}  // namespace perimorph::tests
