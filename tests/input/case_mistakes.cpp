@@ -39,9 +39,9 @@ const std::string elastic_model = R"xml(name="Elastic Model" type="string" value
 INSTANTIATE_TEST_SUITE_P(
     Names, OneMistake,
     testing::Values(
-        Mistake{"UnknownParameter", solver,
-                solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
-                R"xml(:57: /Solver/Tolerence: unknown parameter; allowed are "Operator", "Preconditioner Matrix", )xml"},
+        Mistake{
+            "UnknownParameter", solver, solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
+            R"xml(:57: /Solver/Tolerence: unknown parameter; allowed are "Operator", "Preconditioner Matrix", )xml"},
         Mistake{"NearestParameter", solver,
                 solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
                 R"xml( - did you mean "Tolerance"?)xml"},
@@ -152,9 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
                 R"xml(found "0"; allowed is a whole number >= 1)xml"},
         Mistake{"Tolerance", solver, solver + R"xml(<Parameter name="Tolerance" type="double" value="1"/>)xml",
                 R"xml(/Solver/Tolerance: found "1"; allowed is a number > 0 and < 1)xml"},
-        Mistake{"RebuildGrowth", solver,
-                solver + R"xml(<Parameter name="Rebuild Growth" type="double" value="0.9"/>)xml",
-                R"xml(/Solver/Rebuild Growth: found "0.9"; allowed is a number >= 1)xml"},
+        Mistake{"RebuildGrowth", solver, solver + R"xml(<Parameter name="Renewal Cost" type="double" value="-1"/>)xml",
+                R"xml(/Solver/Renewal Cost: found "-1"; allowed is a number >= 0)xml"},
         Mistake{"ThreeDimensions", R"xml(  <ParameterList name="Mesh">)xml",
                 R"xml(<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">)xml",
                 R"xml(:2: /Dimension: found "3"; allowed is 2: three dimensions are not built yet)xml"},

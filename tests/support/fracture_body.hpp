@@ -52,7 +52,7 @@ inline fracture::BodyOptions make_options(const Specimen& specimen) {
   options.peridynamic_stiffness = specimen.peridynamic_stiffness;
   options.growth_inner_radius = 2. * specimen.horizon;
   options.growth_outer_radius = 4. * specimen.horizon;
-  options.tolerance = specimen.tolerance;
+  options.tolerance = options.damage_tolerance = specimen.tolerance;
   return options;
 }
 
@@ -75,7 +75,7 @@ struct SpecimenBody {
     do {
       body.update_topology();
       do {
-        body.solve();
+        body.solve(fracture::Accuracy::accepted);
         ++solves;
       } while (body.break_bonds() > 0);
     } while (body.flag_damaged_elements() > 0);

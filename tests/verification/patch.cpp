@@ -86,7 +86,7 @@ Errors solve(const Specimen& specimen, const Gradient& gradient) {
   SpecimenBody test(specimen);
   test.body.apply_load(1.);
   test.body.update_topology();
-  test.body.solve();
+  test.body.solve(fracture::Accuracy::accepted);
   return errors(test.body, gradient);
 }
 
@@ -107,7 +107,8 @@ TEST(FinitePatch, LinearFieldIsReproducedToRounding) {
 
 /// 24 x 24 squares, l = dx/5, horizon 3 dx, a peridynamic zone in the middle, its rim a little wider than a horizon.
 /// With 2 x 2 points the discrete sum of eq. 17 has C1111 1.1 % too high and C1122 4.3 % too low: these carry the
-/// errors below, which the width of the rim or the size of the zone change by a quarter of themselves at most.
+/// errors below. The prototypes' strain errors are given without their norm: here root mean squares keep within them,
+/// and largest errors, which sit where E(x) is dropped, have bounds of their own.
 Errors solve_hybrid(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness, const Gradient& gradient) {
   Specimen specimen = patch(grid({24, 24, 24., 24.}), 3., 0.2, gradient);
   specimen.seeds = {Zone<2>::ball({12., 12.}, 5., 9.)};
@@ -123,34 +124,48 @@ TEST(HybridPatch, LinearFieldIsReproducedAcrossTheMorphingZoneWithDiscontinuousE
   const Errors actual = solve_hybrid(DiscontinuousElements::whole_zone, PeridynamicStiffness::dropped, uniaxial);
 
   EXPECT_LT(actual.displacement, 0.0030);  // 0.0025; the prototype had 0.0024
-  EXPECT_LT(actual.strain, 0.034);         // 0.026; the prototype had 0.034
-  EXPECT_LT(actual.rms_strain, 0.018);     // 0.015: elements strain less than the gaps between them
+  EXPECT_LT(actual.strain, 0.034);         // 0.030; the prototype had 0.034
+  EXPECT_LT(actual.rms_strain, 0.018);     // 0.014: elements strain less than the gaps between them
   EXPECT_GT(actual.strain, 1e-4);          // the zone is there
 }
 
 TEST(HybridPatch, LinearFieldIsReproducedAcrossTheMorphingZoneWithContinuousElements) {
   const Errors actual = solve_hybrid(DiscontinuousElements::on_damage, PeridynamicStiffness::dropped, uniaxial);
 
-  EXPECT_LT(actual.displacement, 0.0030);  // 0.0026
-  EXPECT_LT(actual.strain, 0.024);         // 0.021, in the rim
-  EXPECT_LT(actual.rms_strain, 0.0094);    // 0.0081; the prototype had 0.0094
+  EXPECT_LT(actual.displacement, 0.0019);  // 0.0016
+  EXPECT_LT(actual.strain, 0.032);         // 0.028, where E(x) ends
+  EXPECT_LT(actual.rms_strain, 0.0094);    // 0.0064; the prototype had 0.0094
   EXPECT_GT(actual.strain, 1e-4);
 }
 
 /// Ghost forces fall with horizon / (r2 - r1): here the rim is more than three horizons wide.
-TEST(HybridPatch, AWideRimLowersTheDisplacementErrorOfDiscontinuousElements) {
-  Specimen specimen = patch(grid({40, 40, 40., 40.}), 3., 0.2, uniaxial);
+Errors solve_wide_rim(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness, const Gradient& gradient) {
+  Specimen specimen = patch(grid({40, 40, 40., 40.}), 3., 0.2, gradient);
   specimen.seeds = {Zone<2>::ball({20., 20.}, 6., 17.)};
-  specimen.discontinuous = DiscontinuousElements::whole_zone;
-
-  const Errors actual = solve(specimen, uniaxial);
-
-  EXPECT_LT(actual.displacement, 0.0024);  // 0.0017; the prototype had 0.0024
-  EXPECT_LT(actual.strain, 0.034);         // 0.027; the prototype had 0.034
+  specimen.discontinuous = discontinuous;
+  specimen.peridynamic_stiffness = stiffness;
+  return solve(specimen, gradient);
 }
 
-/// Under shear E0 - (discrete sum) is positive, and keeping it corrects the sum. Under extension it has a negative
-/// eigenvalue, is clipped, and cannot help.
+TEST(HybridPatch, AWideRimLowersTheDisplacementErrorOfDiscontinuousElements) {
+  const Errors actual = solve_wide_rim(DiscontinuousElements::whole_zone, PeridynamicStiffness::dropped, uniaxial);
+
+  EXPECT_LT(actual.displacement, 0.0024);  // 0.0017; the prototype had 0.0024
+  EXPECT_LT(actual.strain, 0.034);         // 0.031; the prototype had 0.034
+}
+
+TEST(HybridPatch, StiffnessKeptInThePeridynamicZoneCorrectsContinuousElements) {
+  for (const Gradient& gradient : {uniaxial, shear}) {
+    const Errors actual = solve_wide_rim(DiscontinuousElements::on_damage, PeridynamicStiffness::kept, gradient);
+
+    EXPECT_LT(actual.displacement, 0.0003);  // 0.00028 and 0.00018; the prototype had 0.0003
+    EXPECT_LT(actual.strain, 0.0066);        // 0.0057 and 0.0045
+    EXPECT_LT(actual.rms_strain, 0.0024);    // 0.0015 and 0.0011; the prototype had 0.0024
+  }
+}
+
+/// Under shear E0 - (discrete sum) is positive, and keeping it corrects the sum, in discontinuous elements too. Under
+/// extension it has a negative eigenvalue, is clipped in these, and cannot help.
 TEST(HybridPatch, StiffnessKeptInThePeridynamicZoneCorrectsShear) {
   for (const auto discontinuous : {DiscontinuousElements::whole_zone, DiscontinuousElements::on_damage}) {
     const Errors dropped = solve_hybrid(discontinuous, PeridynamicStiffness::dropped, shear);
@@ -163,9 +178,9 @@ TEST(HybridPatch, StiffnessKeptInThePeridynamicZoneCorrectsShear) {
   }
 }
 
-TEST(HybridPatch, StiffnessKeptInThePeridynamicZoneDoesNoHarmUnderExtension) {
-  const Errors dropped = solve_hybrid(DiscontinuousElements::on_damage, PeridynamicStiffness::dropped, uniaxial);
-  const Errors kept = solve_hybrid(DiscontinuousElements::on_damage, PeridynamicStiffness::kept, uniaxial);
+TEST(HybridPatch, StiffnessKeptInDiscontinuousElementsDoesNoHarmUnderExtension) {
+  const Errors dropped = solve_hybrid(DiscontinuousElements::whole_zone, PeridynamicStiffness::dropped, uniaxial);
+  const Errors kept = solve_hybrid(DiscontinuousElements::whole_zone, PeridynamicStiffness::kept, uniaxial);
 
   EXPECT_LT(kept.displacement, 1.01 * dropped.displacement);
   EXPECT_LT(kept.strain, 1.01 * dropped.strain);
@@ -180,7 +195,7 @@ TEST(HybridPatch, ARigidMotionCausesNoForces) {
 
   test.body.apply_load(1.);
   test.body.update_topology();
-  test.body.solve();
+  test.body.solve(fracture::Accuracy::accepted);
 
   double largest = 0.;
   const auto model = test.body.model();

@@ -22,12 +22,15 @@ void run_adaptive_loop(Body<dim>& body, Results<dim>& results, const LoopLimits&
     do {
       check_limit(growths++, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
       body.update_topology();
-      do {
+      const auto breaks = [&](Accuracy accuracy) {
         check_limit(damage_iterations++, limits.max_damage_iterations, increment, "solves",
                     "Maximum Damage Iterations");
-        body.solve();
+        body.solve(accuracy);
         results.show_progress(increment, body);
-      } while (body.break_bonds() > 0);
+        return body.break_bonds() > 0;
+      };
+      while (breaks(Accuracy::breaking) || breaks(Accuracy::accepted)) {
+      }
     } while (body.flag_damaged_elements() > 0);
     results.accept(increment, body);
   }

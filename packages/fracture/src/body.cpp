@@ -11,7 +11,6 @@
 #include "perimorph/operators/broken_bonds.hpp"
 #include "perimorph/operators/fields.hpp"
 
-
 namespace perimorph::fracture {
 
 using base::GlobalId;
@@ -195,11 +194,12 @@ void Body<dim>::renumber() {
 }
 
 template <int dim>
-void Body<dim>::solve() {
+void Body<dim>::solve(Accuracy accuracy) {
   constexpr int max_passes = 10;
   // Below this share of the largest reaction so far, forces count as none: a severed body has nothing left to relate
   // to.
-  constexpr double negligible = 1e-4;
+  constexpr double negligible = 1e-2;
+  const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
 
   if (!forces_are_current_) {  // a new load or topology: loads_ too
     loads_ = problem_.loads.forces(mesh_, points_, *dofs_, load_factor_);
@@ -210,7 +210,7 @@ void Body<dim>::solve() {
     const Balance balance = this->balance();
     // The first guess moves the supports alone: what that takes bounds the forces of a load that only moves the body.
     if (pass == 0) largest_reaction_ = std::max(largest_reaction_, balance.reaction);
-    const double target = options_.tolerance * std::max(balance.reaction, negligible * largest_reaction_);
+    const double target = tolerance * std::max(balance.reaction, negligible * largest_reaction_);
     if (balance.residual <= target) break;
     if (pass == max_passes) {
       throw base::ComputationError(
@@ -356,10 +356,11 @@ BodyOptions body_options(const Case& input) {
   options.growth_inner_radius = input.growth_inner_radius;
   options.growth_outer_radius = input.growth_outer_radius;
   options.tolerance = input.tolerance;
+  options.damage_tolerance = std::max(input.damage_tolerance, input.tolerance);
   options.operator_form = input.operator_form;
   options.preconditioner_matrix = input.preconditioner_matrix;
   options.short_range_cut_off = input.short_range_cut_off;
-  options.solver = {input.max_cg_iterations, input.rebuild_growth, input.belos, input.muelu};
+  options.solver = {input.max_cg_iterations, input.renewal_cost, input.belos, input.muelu};
   return options;
 }
 

@@ -123,8 +123,9 @@ void take_solution(Case& result, const ParameterList& list) {
   result.short_range_cut_off = solver.get<double>("Short-Range Cut-Off") * result.horizon;
   result.operator_form = value_of(operator_forms, word(solver, "Operator"));
   result.tolerance = solver.get<double>("Tolerance");
+  result.damage_tolerance = solver.get<double>("Damage Tolerance");
   result.max_cg_iterations = solver.get<int>("Maximum Iterations");
-  result.rebuild_growth = solver.get<double>("Rebuild Growth");
+  result.renewal_cost = solver.get<double>("Renewal Cost");
   result.belos = solver.sublist("Belos");
   result.muelu = solver.sublist("MueLu");
 }

@@ -193,14 +193,21 @@ void declare_solver(ParameterList& root) {
       "Longest bond in the short-range matrix, in horizons [-]. Below the distance of points in neighbouring elements "
       "the preconditioner is useless.",
       between(0., 1.));
-  solver.set("Tolerance", 1e-6,
-             "Residual over the norm of the reaction forces [-]. Too loose, and bonds break in another order.",
-             between(0., 1.));
+  solver.set(
+      "Tolerance", 1e-6,
+      "Residual over the norm of the reaction forces [-], in every solution that is accepted. Only with it is it "
+      "decided that no more bonds break.",
+      between(0., 1.));
+  solver.set(
+      "Damage Tolerance", 1e-4,
+      "The same as Tolerance, in solutions after which bonds break [-]; not below Tolerance. Too loose, and bonds "
+      "break in another order.",
+      between(0., 1.));
   solver.set("Maximum Iterations", 500, "Of conjugate gradients in one solution.", count());
-  solver.set("Rebuild Growth", 1.5,
-             "The preconditioner is set up anew when a solution takes more than this times the iterations that it took "
-             "after the last set-up [-].",
-             at_least(1.));
+  solver.set("Renewal Cost", 50.,
+             "The preconditioner is renewed when, since its last set-up, solutions have taken so many iterations more "
+             "than they would have with a new one [-]: what a set-up costs, in iterations.",
+             at_least(0.));
   section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
   section(solver, "MueLu", "Any parameters of MueLu, handed on as they are, over the program's own.");
 }

@@ -39,7 +39,6 @@ void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std:
   }
 }
 
-
 template <int dim>
 double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t>& bonds,
                    const std::vector<Point<dim>>& at_points) {

@@ -12,10 +12,7 @@ namespace perimorph::operators {
 template <int dim>
 CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const Supports<dim>& supports,
                                         const BondSelection& selection)
-    : model_(model),
-      selection_(selection),
-      has_selected_bonds_(model.bonds.n_pairs(), 0),
-      fixed_(supports.fixed) {
+    : model_(model), selection_(selection), has_selected_bonds_(model.bonds.n_pairs(), 0), fixed_(supports.fixed) {
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1) && !has_selected_bonds_[p]; ++b) {
       has_selected_bonds_[p] = is_selected(model.bonds.pair(p), b);
@@ -245,7 +242,8 @@ void CoupledStiffness<dim>::add_diagonal(const std::vector<double>& diagonal) {
   for (int row = 0; row < model_.dofs.n_owned_nodes(); ++row) {
     const std::size_t width = (first_[row + 1] - first_[row]) * dim;
     for (int c = 0; c < dim; ++c) {
-      values_[first_[row] * dim * dim + c * width + (diagonal_[row] - first_[row]) * dim + c] += diagonal[row * dim + c];
+      values_[first_[row] * dim * dim + c * width + (diagonal_[row] - first_[row]) * dim + c] +=
+          diagonal[row * dim + c];
     }
   }
 }

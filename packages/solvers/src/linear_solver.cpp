@@ -63,6 +63,7 @@ void LinearSolver::prepare() {
     throw base::ComputationError(fmt::format("the multigrid preconditioner could not be set up: {}", error.what()));
   }
   refreshed_ = refresh;
+  excess_ = 0.;
   condition_ = Condition::good;
 }
 
@@ -89,16 +90,16 @@ LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, 
   }
 }
 
-/// Iterations per decade, compared with those just after the last set-up, tell when the preconditioner has aged.
+/// Iterations per decade just after a rebuild are what it should take; what it takes more adds up, until it has cost as
+/// much as a new set-up.
 void LinearSolver::judge(int iterations, double relative_tolerance) {
   const double decades = -std::log10(relative_tolerance);
-  if (decades < 1.) return;  // too little to judge by
-  const double rate = iterations / decades;
   if (fresh_rate_ == 0.) {
-    fresh_rate_ = rate;
-  } else if (rate > parameters_.rebuild_growth * fresh_rate_ && iterations > 5) {
-    condition_ = Condition::aged;
+    if (decades >= 1.) fresh_rate_ = iterations / decades;  // less is too little to judge by
+    return;
   }
+  excess_ += iterations - fresh_rate_ * decades;
+  if (excess_ > parameters_.renewal_cost) condition_ = Condition::aged;
 }
 
 }  // namespace perimorph::solvers

@@ -18,8 +18,8 @@ Teuchos::ParameterList default_parameters(Multigrid::Smoothing smoothing) {
   auto& smoother = list.sublist("smoother: params");
   if (smoothing == Multigrid::Smoothing::fast) {
     list.set("smoother: type", "CHEBYSHEV");
-    smoother.set("chebyshev: degree", 2);
-    smoother.set("chebyshev: ratio eigenvalue", 7.);
+    smoother.set("chebyshev: degree", 1);
+    smoother.set("chebyshev: ratio eigenvalue", 4.);
     smoother.set("chebyshev: eigenvalue max iterations", 30);
   } else {
     list.set("smoother: type", "RELAXATION");

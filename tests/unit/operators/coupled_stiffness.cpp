@@ -99,7 +99,6 @@ TEST_P(CoupledStiffness, IsSymmetricAndPositiveWithThreeRigidModesAtZeroEnergy) 
   EXPECT_GT(eigenvalues[3], 1e-5 * largest);
 }
 
-
 TEST_P(CoupledStiffness, WithoutBrokenBondsEqualsTheOneAssembledAfterBreaking) {
   const std::vector<double> zero(2 * body.dofs->n_nodes(), 0.);
   std::vector<std::size_t> broken;

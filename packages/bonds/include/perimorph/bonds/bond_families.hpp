@@ -40,8 +40,8 @@ class BondFamilies {
   /// Points at the bond's ends, counted within their elements.
   int first_end(Bond b) const { return ends_[b] / elements::max_points; }
   int second_end(Bond b) const { return ends_[b] % elements::max_points; }
-  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; rounded to
-  /// single precision, so that every form of the operator has the same bonds.
+  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; rounded
+  /// to single precision, so that every form of the operator has the same bonds.
   double stiffness(Bond b) const { return stiffness_[b]; }
   bool broken(Bond b) const { return broken_[b]; }
   void set_broken(int pair, Bond b);

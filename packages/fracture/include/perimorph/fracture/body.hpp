@@ -17,13 +17,17 @@ struct BodyOptions {
   DiscontinuousElements discontinuous;
   operators::PeridynamicStiffness peridynamic_stiffness;
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o, [length]
-  double tolerance;                                 ///< residual over reaction forces
+  double tolerance;                                 ///< residual over reaction forces in accepted solutions
+  double damage_tolerance;                          ///< the same while bonds break
   OperatorForm operator_form = OperatorForm::matrix_free;
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
   double short_range_cut_off = 0.;  ///< [length]
   solvers::SolverParameters solver;
 };
 BodyOptions body_options(const Case& input);
+
+/// How well to solve: between breaks, or well enough to say that nothing breaks.
+enum class Accuracy { breaking, accepted };
 
 /// What has happened to a body, over all ranks.
 struct Counts {
@@ -54,9 +58,9 @@ class Body {
   /// @throws UserError at the first call, if a pre-crack cuts through elements outside the peridynamic zone.
   void update_topology();
 
-  /// Solves R(u; bonds, load) = 0 for the displacement.
+  /// Solves R(u; bonds, load) = 0 for the displacement; costs nothing if it is accurate enough already.
   /// @throws ComputationError if the solver fails.
-  void solve();
+  void solve(Accuracy accuracy);
 
   /// Breaks bonds whose stretch reached the critical one; returns how many.
   base::GlobalId break_bonds();

@@ -82,9 +82,10 @@ struct Case {
   OperatorForm operator_form;
   PreconditionerMatrix preconditioner_matrix;
   double short_range_cut_off;  ///< of the bonds in the short-range matrix, [length] (given in horizons)
-  double tolerance;            ///< residual over reaction forces
+  double tolerance;            ///< residual over reaction forces, in accepted solutions
+  double damage_tolerance;     ///< the same while bonds break
   int max_cg_iterations;
-  double rebuild_growth;  ///< the preconditioner is rebuilt when iterations exceed this times those after its set-up
+  double renewal_cost;                  ///< of the preconditioner, in iterations
   Teuchos::ParameterList belos, muelu;  ///< overrides, free-form
 
   int output_every;  ///< fields are written every so many increments, at every break, and at the last one

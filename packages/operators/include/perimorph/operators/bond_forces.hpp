@@ -35,9 +35,9 @@ class BondForces {
   std::map<std::pair<const elements::ReferenceElement<dim>*, int>, std::size_t> shape_tables_;
   std::vector<double> shapes_;
   std::vector<Packet> packets_;
-  std::vector<double> positions_;        ///< per packet: (dim, 4)
-  std::vector<double> alpha_;            ///< per packet: (4), halved
-  std::vector<int> first_packet_;        ///< per element, -1 without bonds
+  std::vector<double> positions_;  ///< per packet: (dim, 4)
+  std::vector<double> alpha_;      ///< per packet: (4), halved
+  std::vector<int> first_packet_;  ///< per element, -1 without bonds
 
   // Blocks of bonds, from each packet to packets that come with it in a pair.
   std::vector<std::size_t> first_block_, first_bond_;  ///< per packet

@@ -19,7 +19,8 @@ class MorphedStiffness {
  public:
   MorphedStiffness(const base::Stiffness<dim>& e0, PeridynamicStiffness policy) : e0_(e0), policy_(policy) {}
 
-  /// Recomputes all; needed after alpha or the bonds have grown, or elements were split. Right for active elements. Local.
+  /// Recomputes all; needed after alpha or the bonds have grown, or elements were split. Right for active elements.
+  /// Local.
   void update(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
               const bonds::BondFamilies<dim>& bonds, const morphing::MorphingField<dim>& alpha,
               const std::vector<morphing::ElementClass>& classes, const std::vector<char>& discontinuous);

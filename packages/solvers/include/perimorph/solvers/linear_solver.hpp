@@ -10,7 +10,7 @@ namespace perimorph::solvers {
 
 struct SolverParameters {
   int max_iterations = 500;
-  double rebuild_growth = 1.5;  ///< the preconditioner is renewed when iterations exceed this times those after set-up
+  double renewal_cost = 50.;            ///< iterations more than with a new preconditioner, after which it is renewed
   Teuchos::ParameterList belos, muelu;  ///< overrides
 };
 
@@ -53,6 +53,7 @@ class LinearSolver {
   };
   Outcome iterate(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   double fresh_rate_ = 0.;  ///< iterations per decade of reduction with the preconditioner as built
+  double excess_ = 0.;      ///< iterations since the last set-up, beyond those at the fresh rate
   void judge(int iterations, double relative_tolerance);
 };
 
