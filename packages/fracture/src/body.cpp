@@ -196,9 +196,9 @@ void Body<dim>::renumber() {
 template <int dim>
 void Body<dim>::solve(Accuracy accuracy) {
   constexpr int max_passes = 10;
-  // Below this share of the largest reaction so far, forces count as none: a severed body has nothing left to relate
-  // to.
-  constexpr double negligible = 1e-2;
+  // A severed body has no reactions left that its residual could relate to: then these shares of the largest reaction
+  // so far count, and of the largest that a first guess took, which moves the supports alone.
+  constexpr double of_solution = 0.1, of_first_guess = 1e-4;
   const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
 
   if (!forces_are_current_) {  // a new load or topology: loads_ too
@@ -208,10 +208,12 @@ void Body<dim>::solve(Accuracy accuracy) {
   }
   for (int pass = 0;; ++pass) {
     const Balance balance = this->balance();
-    // The first guess moves the supports alone: what that takes bounds the forces of a load that only moves the body.
-    if (pass == 0) largest_reaction_ = std::max(largest_reaction_, balance.reaction);
-    const double target = tolerance * std::max(balance.reaction, negligible * largest_reaction_);
-    if (balance.residual <= target) break;
+    if (pass == 0) force_scale_ = std::max(force_scale_, of_first_guess * balance.reaction);
+    const double target = tolerance * std::max(balance.reaction, force_scale_);
+    if (balance.residual <= target) {
+      force_scale_ = std::max(force_scale_, of_solution * balance.reaction);
+      break;
+    }
     if (pass == max_passes) {
       throw base::ComputationError(
           fmt::format("the forces do not balance: residual {:.3e}, reactions {:.3e} after {} solves", balance.residual,

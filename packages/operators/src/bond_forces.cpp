@@ -10,6 +10,13 @@ namespace perimorph::operators {
 namespace {
 
 constexpr unsigned bit(int i, int j) { return 1u << (i * n_lanes + j); }
+RowPair first_ends(const double* at_points) {
+  RowPair both;
+  both << Lanes::Constant(at_points[0]), Lanes::Constant(at_points[1]);
+  return both;
+}
+auto first_row(const RowPair& rows) { return rows.head<n_lanes>(); }
+auto second_row(const RowPair& rows) { return rows.tail<n_lanes>(); }
 int count_bits(unsigned mask) { return __builtin_popcount(mask); }
 
 }  // namespace
@@ -110,45 +117,57 @@ void BondForces<dim>::gather(const double* u) const {
   }
 }
 
+/// Two rows of a block at once, each of the bonds from one point of the first packet to the four of the second.
 template <int dim>
 void BondForces<dim>::pull() const {
   std::fill(forces_.begin(), forces_.end(), 0.);
   const float* stiffness = stiffness_.data();
   for (std::size_t a = 0; a < packets_.size(); ++a) {
-    const double* x_a = positions_.data() + a * dim * n_lanes;
-    const double* u_a = displacements_.data() + a * dim * n_lanes;
-    std::array<std::array<Lanes, dim>, n_lanes> on_a;  // per point, summed over the lanes at the end
-    for (auto& f : on_a) f.fill(Lanes::Zero());
+    std::array<std::array<RowPair, dim>, n_lanes / 2> x_a, u_a, on_a;
+    std::array<RowPair, n_lanes / 2> alpha_a;
+    for (int rows = 0; rows < n_lanes / 2; ++rows) {
+      for (int c = 0; c < dim; ++c) {
+        x_a[rows][c] = first_ends(positions_.data() + (a * dim + c) * n_lanes + 2 * rows);
+        u_a[rows][c] = first_ends(displacements_.data() + (a * dim + c) * n_lanes + 2 * rows);
+        on_a[rows][c].setZero();
+      }
+      alpha_a[rows] = first_ends(alpha_.data() + a * n_lanes + 2 * rows);
+    }
     for (std::size_t block = first_block_[a]; block < first_block_[a + 1]; ++block) {
       const std::size_t b = second_[block];
-      std::array<Lanes, dim> x, u, on_b;
+      std::array<RowPair, dim> x, u, on_b;
       for (int c = 0; c < dim; ++c) {
-        x[c] = Eigen::Map<const Lanes>(positions_.data() + (b * dim + c) * n_lanes);
-        u[c] = Eigen::Map<const Lanes>(displacements_.data() + (b * dim + c) * n_lanes);
-        on_b[c] = Eigen::Map<const Lanes>(forces_.data() + (b * dim + c) * n_lanes);
+        x[c] = twice(positions_.data() + (b * dim + c) * n_lanes);
+        u[c] = twice(displacements_.data() + (b * dim + c) * n_lanes);
+        on_b[c].setZero();
       }
-      const Lanes alpha = Eigen::Map<const Lanes>(alpha_.data() + b * n_lanes);
-      for (int i = 0; i < n_lanes; ++i) {
-        const unsigned row = masks_[block] >> (i * n_lanes) & 15u;
-        const Lanes k = expand(row, stiffness) * (alpha + alpha_[a * n_lanes + i]);
-        stiffness += count_bits(row);
-        std::array<Lanes, dim> xi;
-        Lanes elongation = Lanes::Zero();
+      const RowPair alpha = twice(alpha_.data() + b * n_lanes);
+      for (int rows = 0; rows < n_lanes / 2; ++rows) {
+        const unsigned mask = masks_[block] >> (rows * 2 * n_lanes) & 255u;
+        const RowPair k = expand(mask, stiffness) * (alpha + alpha_a[rows]);
+        stiffness += count_bits(mask);
+        std::array<RowPair, dim> xi;
+        RowPair pull = RowPair::Zero();
         for (int c = 0; c < dim; ++c) {
-          xi[c] = x[c] - x_a[c * n_lanes + i];
-          elongation += xi[c] * (u[c] - u_a[c * n_lanes + i]);
+          xi[c] = x[c] - x_a[rows][c];
+          pull += xi[c] * (u[c] - u_a[rows][c]);
         }
-        elongation *= k;
+        pull *= k;
         for (int c = 0; c < dim; ++c) {
-          const Lanes f = elongation * xi[c];
-          on_a[i][c] -= f;
-          on_b[c] += f;
+          on_a[rows][c] -= pull * xi[c];
+          on_b[c] += pull * xi[c];
         }
       }
-      for (int c = 0; c < dim; ++c) Eigen::Map<Lanes>(forces_.data() + (b * dim + c) * n_lanes) = on_b[c];
+      for (int c = 0; c < dim; ++c) {
+        Eigen::Map<Lanes>(forces_.data() + (b * dim + c) * n_lanes) += first_row(on_b[c]) + second_row(on_b[c]);
+      }
     }
-    for (int i = 0; i < n_lanes; ++i) {
-      for (int c = 0; c < dim; ++c) forces_[(a * dim + c) * n_lanes + i] += on_a[i][c].sum();
+    for (int rows = 0; rows < n_lanes / 2; ++rows) {
+      for (int c = 0; c < dim; ++c) {
+        double* force = forces_.data() + (a * dim + c) * n_lanes + 2 * rows;
+        force[0] += first_row(on_a[rows][c]).sum();
+        force[1] += second_row(on_a[rows][c]).sum();
+      }
     }
   }
 }

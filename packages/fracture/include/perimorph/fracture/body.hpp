@@ -115,7 +115,7 @@ class Body {
   std::vector<double> last_u_, last_force_;  ///< owned, at the last solution; zero force after the topology changed
 
   double load_factor_ = 0.;
-  double largest_reaction_ = 0.;
+  double force_scale_ = 0.;  ///< below which reactions say nothing of the load
   bool load_is_new_ = false;
   bool forces_are_current_ = false;  ///< at_points_ and force_ belong to the displacement, bonds and topology
   Counts counts_;

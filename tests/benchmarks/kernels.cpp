@@ -1,0 +1,130 @@
+// Kernels on an all-peridynamic square: applying the operator in its two forms, setting up the preconditioner from its
+// two matrices, and a STREAM triad for comparison. tools/benchmark runs this and prints the ratios.
+
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+
+#include "perimorph/solvers/linear_solver.hpp"
+#include "support/coupled_body.hpp"
+
+namespace perimorph::tests {
+
+std::unique_ptr<CoupledBody> the_square;
+
+namespace {
+
+using Vector = Tpetra::Vector<double>;
+
+/// n x n squares, horizon 3 spacings, l = 1/5 spacing, peridynamic and discontinuous everywhere as in WHL19; held at
+/// the left.
+int side() {
+  const char* n = std::getenv("PERIMORPH_BENCHMARK_SIDE");
+  return n == nullptr ? 200 : std::atoi(n);
+}
+
+const CoupledBody& square() {
+  if (the_square == nullptr) {
+    const double length = side();
+    Setup setup{{side(), side(), length, length}, 3., 0.2, {morphing::Zone<2>::everything()}};
+    setup.whole_zone_discontinuous = true;
+    setup.prescribed = {{"x", "left", 0, {0., 0.}}, {"y", "left", 1, {0., 0.}}};
+    the_square = std::make_unique<CoupledBody>(setup);
+  }
+  return *the_square;
+}
+
+Vector wave(const Teuchos::RCP<const Tpetra::Map<>>& map) {
+  Vector x(map);
+  const auto values = x.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t i = 0; i < x.getLocalLength(); ++i) values(i, 0) = std::sin(0.37 * static_cast<double>(i));
+  return x;
+}
+
+double n_unknowns() { return static_cast<double>(square().dofs->n_global_nodes()) * 2.; }
+
+/// Bytes of values, columns and row starts.
+double bytes(const solvers::Matrix& matrix) {
+  const auto local = matrix.getLocalMatrixHost();
+  return static_cast<double>(local.nnz()) * (sizeof(double) + sizeof(int)) +
+         static_cast<double>(local.numRows() + 1) * sizeof(std::size_t);
+}
+
+void apply(benchmark::State& state, const Tpetra::Operator<double>& linear_operator, double memory) {
+  const Vector x = wave(linear_operator.getDomainMap());
+  Vector y(linear_operator.getRangeMap());
+  for (auto _ : state) linear_operator.apply(x, y);
+  state.counters["memory"] = memory;
+  state.counters["unknowns"] = n_unknowns();
+  state.counters["bonds"] = static_cast<double>(square().bonds.n_bonds());
+  state.SetBytesProcessed(static_cast<std::int64_t>((memory + 2. * sizeof(double) * n_unknowns()) *
+                                                    static_cast<double>(state.iterations())));
+}
+
+void apply_crs(benchmark::State& state) {
+  const auto& matrix = *square().stiffness->matrix();
+  apply(state, matrix, bytes(matrix));
+}
+
+void apply_matrix_free(benchmark::State& state) {
+  const operators::MatrixFreeStiffness<2> stiffness(square().model(), square().supports());
+  apply(state, stiffness, static_cast<double>(stiffness.bytes()));
+}
+
+/// a = b + s c, on arrays far larger than the caches.
+void stream_triad(benchmark::State& state) {
+  constexpr std::size_t n = 20'000'000;
+  std::vector<double> a(n, 0.), b(n, 1.), c(n, 2.);
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + 3. * c[i];
+    benchmark::ClobberMemory();
+  }
+  state.SetBytesProcessed(static_cast<std::int64_t>(3 * n * sizeof(double)) * state.iterations());
+}
+
+/// Sets the preconditioner up and solves for a load on all nodes to 1e-8 of it.
+void solve(benchmark::State& state, const operators::BondSelection& selection) {
+  const auto& body = square();
+  const auto supports = body.supports();
+  const auto stiffness = Teuchos::rcp(new operators::MatrixFreeStiffness<2>(body.model(), supports));
+  const operators::CoupledStiffness<2> matrix(body.model(), supports, selection);
+  std::vector<Point2> coordinates;
+  for (int n = 0; n < body.dofs->n_nodes(); ++n) {
+    coordinates.push_back(body.mesh.coordinates[body.dofs->reference_node(n)]);
+  }
+  const auto modes = solvers::rigid_body_modes<2>(*matrix.matrix(), coordinates);
+  const Vector load = wave(body.dofs->owned_dofs());
+  Vector x(load.getMap());
+  base::Profile profile;
+  int iterations = 0;
+  for (auto _ : state) {
+    solvers::LinearSolver solver({}, profile);
+    solver.set_operator(stiffness, matrix.matrix(), modes);
+    iterations = solver.solve(load, x, 1e-8 * load.norm2());
+  }
+  const auto n = static_cast<double>(state.iterations());
+  state.counters["iterations"] = iterations;
+  state.counters["setup"] = profile.seconds(base::Phase::preconditioner) / n;
+  state.counters["cg"] = profile.seconds(base::Phase::cg) / n;
+}
+
+void solve_coupled(benchmark::State& state) { solve(state, operators::all_bonds); }
+void solve_short_range(benchmark::State& state) {
+  solve(state, operators::short_range(square().model(), *square().comm, 0.4 * 3.));
+}
+
+BENCHMARK(stream_triad)->Unit(benchmark::kMillisecond);
+BENCHMARK(apply_crs)->Unit(benchmark::kMillisecond);
+BENCHMARK(apply_matrix_free)->Unit(benchmark::kMillisecond);
+BENCHMARK(solve_coupled)->Unit(benchmark::kMillisecond);
+BENCHMARK(solve_short_range)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace perimorph::tests
+
+int main(int argc, char** argv) {
+  const Tpetra::ScopeGuard scope(&argc, &argv);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  perimorph::tests::the_square.reset();  // while MPI still runs
+}
