@@ -218,6 +218,10 @@ class ExodusFile:
     def coordinates(self):
         return [self.data[axis][:] for axis in ("coordx", "coordy", "coordz") if axis in self.data.variables]
 
+    def connectivity(self):
+        """For each block the nodes of its elements, from 0: an array (elements, corners)."""
+        return [self.data[f"connect{block}"][:] - 1 for block in range(1, len(self.data.dimensions["num_el_blk"]) + 1)]
+
     def displacement(self, index):
         """One array per coordinate; zeros where there is none."""
         names = self.names("name_nod_var")
