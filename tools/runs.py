@@ -215,6 +215,9 @@ class ExodusFile:
     def names(self, variable):
         return [text.strip("\0 ") for text in self.records(variable)]
 
+    def block_ids(self):
+        return [int(number) for number in self.data["eb_prop1"][:]]
+
     def coordinates(self):
         return [self.data[axis][:] for axis in ("coordx", "coordy", "coordz") if axis in self.data.variables]
 
