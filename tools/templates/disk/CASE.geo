@@ -1,13 +1,13 @@
-// A disk with an upright crack in its middle, radius 16, pressed between two plates. Lengths in mm.
+// A disk with an upright crack in its middle, radius 12, pressed between two plates. Lengths in mm.
 //
 //             5 - 4          top: pressed down
 //          .         .
-//        6      |      3     the crack, from y = -5 to 5, stands in @NAME@.xml too
+//        6      |      3     the crack, from y = -4 to 4, stands in @NAME@.xml too
 //          .         .
 //             1 - 2          bottom: held
-radius = 16;
-half = 2.5;        // of the width on which the plates press
-half_crack = 5;
+radius = 12;
+half = 2;         // of the width on which the plates press
+half_crack = 4;
 dx = 1;           // of the elements; the horizon in @NAME@.xml is three times this
 size = 1.1 * dx;  // recombined quadrilaterals come out smaller than asked for
 
