@@ -68,14 +68,18 @@ def hide_ready(part, view):
 def main():
     view = pv.GetActiveViewOrCreate("RenderView")
     reader = open_series(os.environ["PERIMORPH_FILES"].split("\n"))
+    last = reader.TimestepValues[-1]
+    scene = pv.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    scene.AnimationTime = view.ViewTime = last
     body = warped(reader, float(os.environ["PERIMORPH_WARP"]))
+    body.UpdatePipeline(last)
     display = pv.Show(body, view)
     colour_by_class(display, view)
     for part in (damaged(body), slice_of(body)):
+        part.UpdatePipeline(last)
         hide_ready(part, view)
-    scene = pv.GetAnimationScene()
-    scene.UpdateAnimationUsingDataTimeSteps()
-    scene.AnimationTime = view.ViewTime = reader.TimestepValues[-1]
+    scene.AnimationTime = last  # showing parts may set it back
     pv.SetActiveSource(body)
     low, high = reader.GetDataInformation().GetBounds()[4:6]
     view.InteractionMode = "2D" if low == high else "3D"
