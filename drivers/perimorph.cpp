@@ -51,7 +51,9 @@ int main(int argc, char** argv) {
   run->add_flag("--no-progress", arguments.no_progress, "No progress bar, even on a terminal");
   auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what it would cost");
   add_case_options(*check, arguments);
-  app.add_subcommand("params", "Print every parameter with default, range, unit and meaning");
+  bool markdown = false;
+  app.add_subcommand("params", "Print every parameter with default, range, unit and meaning")
+      ->add_flag("--markdown", markdown, "As a Markdown page");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -66,7 +68,8 @@ int main(int argc, char** argv) {
   };
   try {
     if (app.got_subcommand("params")) {
-      if (comm->getRank() == 0) std::fputs(fracture::describe_schema().c_str(), stdout);
+      const auto text = markdown ? fracture::describe_schema_in_markdown() : fracture::describe_schema();
+      if (comm->getRank() == 0) std::fputs(text.c_str(), stdout);
       return 0;
     }
     const fracture::Case input = read_case(*comm, arguments);

@@ -4,7 +4,9 @@
 """
 
 import csv
+import os
 import pathlib
+import pty
 import subprocess
 import sys
 import tempfile
@@ -182,6 +184,47 @@ class Runs(Driver):
             self.assertAlmostEqual(u.max(), 0.4)  # the corners: rate 0.2, second increment
             self.assertAlmostEqual(u.min(), -0.4)
 
+    def test_the_exodus_files_carry_program_and_case(self):
+        self.assertEqual(self.run_case().returncode, 0)
+        resolved = xml.etree.ElementTree.parse(self.output / "resolved.xml").getroot()
+        values = lambda root: [(p.get("name"), p.get("value")) for p in root.iter("Parameter")]
+
+        self.assertGreater(len(self.series()), 1)
+        for part in self.series():
+            with netCDF4.Dataset(part) as file:
+                program, version, date, time = text_of(file["qa_records"][0])
+                # Lines of more than 80 characters are split: joined again they are the resolved case.
+                case = xml.etree.ElementTree.fromstring("".join(text_of(file["info_records"])))
+            self.assertEqual(program, "perimorph")
+            self.assertRegex(f"{version} {date} {time}", r"^\d+\.\d+\.\d+ \d{4}-\d\d-\d\d \d\d:\d\d:\d\d$")
+            self.assertEqual(values(case), values(resolved))
+
+            dump = subprocess.run(["ncdump", "-v", "qa_records,time_whole", part], capture_output=True, text=True, timeout=30)
+            self.assertEqual(dump.returncode, 0, dump.stderr)
+            self.assertIn('"perimorph"', dump.stdout)
+
+    def test_a_blocks_name_has_one_id_in_the_whole_series(self):
+        self.assertEqual(self.run_case().returncode, 0)
+        found = set()
+        for part in self.series():
+            with netCDF4.Dataset(part) as file:
+                found |= set(zip(text_of(file["eb_names"]), map(int, file["eb_prop1"][:])))
+        self.assertEqual(found, {("body_FE", 11), ("body_MORPH", 12), ("body_PD", 13), ("body_DGFE", 14)})
+
+    def test_a_terminal_shows_progress_with_what_is_left(self):
+        terminal, end = pty.openpty()
+        run = subprocess.Popen([PERIMORPH, "run", self.case, "--output", self.output], stdout=end, stderr=end)
+        os.close(end)
+        shown = b""
+        try:
+            while piece := os.read(terminal, 4096):
+                shown += piece
+        except OSError:  # the other end is closed
+            pass
+        os.close(terminal)
+        self.assertEqual(run.wait(timeout=60), 0)
+        self.assertRegex(shown.decode(), r"\r\x1b\[K\[=*> *\] step 3/3: \d+ solves, \d+ broken bonds, at this pace \d+ s left")
+
     def test_two_ranks_write_the_history_and_fields_of_one(self):
         self.assertEqual(self.run_case().returncode, 0)
         one, displacement = self.history(), self.displacement_by_place()
@@ -302,6 +345,13 @@ class OtherCommands(Driver):
         self.assertEqual(run.returncode, 0)
         for path in ["/Material/Young's Modulus", "/Loading/Increments", "/Morphing/Seeds/*/Center", "/Output/Every"]:
             self.assertIn(f"\n{path}\n", run.stdout)
+
+    def test_the_page_of_parameters_is_current(self):
+        run = self.perimorph("params", "--markdown")
+
+        self.assertEqual(run.returncode, 0, run.stderr)
+        page = pathlib.Path(__file__).resolve().parents[2] / "packages/PARAMETERS.md"
+        self.assertEqual(page.read_text(), run.stdout, f"renew it: perimorph params --markdown > {page}")
 
 
 if __name__ == "__main__":

@@ -73,7 +73,18 @@ std::vector<ElementRecord> own_elements(const Body<dim>& body) {
   return records;
 }
 
-/// Blocks by material, class and type, elements in each by id. Returns each record's place in the file.
+/// The type of each block's elements; of the two, if it has both triangles and quadrilaterals (or the like), the first.
+std::map<int, mesh::ElementType> first_types(const std::vector<ElementRecord>& records) {
+  std::map<int, mesh::ElementType> types;
+  for (const auto& record : records) {
+    auto& type = types.try_emplace(record.block, record.type).first->second;
+    type = std::min(type, record.type);
+  }
+  return types;
+}
+
+/// Blocks by material, class and type, elements in each by id. Returns each record's place in the file. A block's name
+/// and id depend on these three only, not on the topology: 11, 12, 13, 14 are FE to DGFE of the mesh's first block.
 template <int dim>
 std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records,
                                   const std::vector<std::string>& block_names, io::ExodusModel<dim>& model) {
@@ -82,15 +93,17 @@ std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records,
   const auto key = [&](int i) { return std::make_tuple(records[i].block, records[i].kind, records[i].type); };
   std::sort(order.begin(), order.end(),
             [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : records[i].id < records[j].id; });
+  const auto types = first_types(records);
   std::vector<int> place(records.size());
   for (std::size_t position = 0; position < order.size(); ++position) {
     const auto& record = records[order[position]];
     place[order[position]] = static_cast<int>(position);
     if (position == 0 || key(order[position]) != key(order[position - 1])) {
+      const bool is_second_type = record.type != types.at(record.block);
+      const int id = 10 * (record.block + 1) + record.kind + (is_second_type ? 5 : 1);
       std::string name = block_names[record.block] + "_" + kind_names[record.kind];
-      const bool same_name = !model.blocks.empty() && model.blocks.back().name == name;
-      if (same_name) name += "_" + mesh::exodus_name(record.type);
-      model.blocks.push_back({name, record.type, {}, {}});
+      if (is_second_type) name += "_" + mesh::exodus_name(record.type);
+      model.blocks.push_back({name, record.type, {}, {}, id});
     }
     auto& block = model.blocks.back();
     block.element_ids.push_back(record.id);
@@ -206,6 +219,7 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
     show_line(increment, body);
   });
   broken_before_ = broken;
+  if (increment > 1) pace_.add(profile_.elapsed() - seconds_before_);
   seconds_before_ = last_word_ = profile_.elapsed();
 }
 
@@ -287,8 +301,10 @@ void Results<dim>::show_progress(int increment, const Body<dim>& body) {
   if (!voice_.shows_progress) return;
   constexpr int width = 30;
   const int done = width * (increment - 1) / last_increment_;
-  fmt::print("\r\033[K[{:=<{}}{:>{}}] step {}/{}: {} solves, {} broken bonds", ">", done + 1, "", width - done,
-             increment, last_increment_, body.counts().linear_solves, body.counts().broken_bonds);
+  const double left = pace_.left(last_increment_ - increment + 1, profile_.elapsed() - seconds_before_);
+  fmt::print("\r\033[K[{:=>{}}{:>{}}] step {}/{}: {} solves, {} broken bonds{}", ">", done + 1, "", width - done,
+             increment, last_increment_, body.counts().linear_solves, body.counts().broken_bonds,
+             increment > 2 ? fmt::format(", at this pace {} left", base::duration(left)) : "");
   std::fflush(stdout);
 }
 

@@ -2,10 +2,8 @@
 // stand in brackets; perimorph knows none, so that any consistent set will do (mm, N and MPa; or m, N and Pa).
 
 #include <Teuchos_Array.hpp>
-#include <sstream>
 
 #include "choices.hpp"
-#include "literal.hpp"
 #include "perimorph/fracture/case.hpp"
 #include "rules.hpp"
 
@@ -35,7 +33,12 @@ void declare_general(ParameterList& root) {
 void declare_material(ParameterList& root) {
   ParameterList& material =
       section(root, "Material", "One homogeneous, isotropic, linearly elastic, brittle material.");
-  material.set("Young's Modulus", 30000., "E [stress].", required(above(0.)));
+  material.set(
+      "Young's Modulus", 30000.,
+      "E [stress]. Its unit fixes the others: with lengths in mm and E in MPa, forces are in N and the fracture "
+      "energy is in N/mm. Ten times E gives ten times the forces, and a fracture energy then belongs to a "
+      "critical stretch smaller by the root of ten.",
+      required(above(0.)));
   material.set(
       "Poisson's Ratio", 1. / 3.,
       "nu [-]. Bond-based peridynamics, with central forces between pairs of points, has one ratio only: 1/3 in "
@@ -48,14 +51,17 @@ void declare_material(ParameterList& root) {
       required(one_of(words(elastic_models))));
   material.set(
       "Critical Stretch", 0.05,
-      "s_crit [-]: a bond whose stretch reaches it breaks for good [WHL19, eq. 6, 7]. Given the horizon and the "
-      "characteristic length it follows from the fracture energy, so give one of the two; with neither, nothing "
-      "breaks.",
+      "s_crit [-]: a bond whose stretch |xi + u(p) - u(x)|/|xi| - 1 reaches it breaks for good [WHL19, eq. 6, 7]. "
+      "Given the horizon and the characteristic length it follows from the fracture energy, so give one of the two; "
+      "with neither, nothing breaks. Forces at failure are proportional to it. The strain at a crack's tip grows as "
+      "elements get smaller, so with a fixed stretch a finer mesh breaks earlier.",
       optional(above(0.)));
   material.set(
       "Fracture Energy", 0.1,
-      "G_c [force/length]: the energy per area of new crack. The critical stretch is derived from it, so that it "
-      "stays the same when the horizon or the characteristic length is changed.",
+      "G_c [force/length]: the energy per area of new crack. The critical stretch is derived from it, in two "
+      "dimensions by G_c = s_crit^2 times the integral of c0(r) r^6 over r from 0 to the horizon, so that it stays "
+      "the same when the horizon or the characteristic length is changed. Data sheets give toughness K_c = sqrt(G_c "
+      "E) in plane stress; K_c taken for G_c is wrong by orders of magnitude.",
       optional(above(0.)));
 }
 
@@ -88,7 +94,9 @@ void declare_seeds(ParameterList& morphing) {
            "\"Circle\" takes the center and the two radii, \"Box\" the corners and the rim, \"Everything\" nothing.",
            one_of(words(seed_shapes)));
   seed.set("Center", Numbers{{0., 0.}}, "Of a circle: x_0 [length].", optional(numbers("a point such as {1.5, 2}")));
-  seed.set("Inner Radius", 4., "Of a circle: r_1 [length], up to which the morphing function is 1.",
+  seed.set("Inner Radius", 4.,
+           "Of a circle: r_1 [length], up to which the morphing function is 1. Bonds break only where "
+           "it is 1 all around, up to a horizon away: take at least two horizons, or hardly any bond can break.",
            optional(above(0.)));
   seed.set("Outer Radius", 6.,
            "Of a circle: r_2 [length], from which the morphing function is 0. A ring thinner than the horizon gives "
@@ -104,7 +112,9 @@ void declare_seeds(ParameterList& morphing) {
 
 void declare_morphing(ParameterList& root) {
   ParameterList& morphing = section(root, "Morphing", "Where the body is peridynamic, and how that zone grows.");
-  morphing.set("Function", "Linear", "How the morphing function alpha falls from 1 to 0 across a zone's rim.",
+  morphing.set("Function", "Linear",
+               "How the morphing function alpha falls from 1 to 0 across a zone's rim, with t from 0 to 1: 1 - t, or "
+               "\"Cubic\" 1 - t^2 (3 - 2 t), smooth at both ends.",
                one_of(words(morphing_profiles)));
   morphing.set(
       "Discontinuous Elements", "On Damage",
@@ -121,8 +131,11 @@ void declare_morphing(ParameterList& root) {
                "r_i [horizons]: around the centroid of an element with a broken bond the zone grows to this radius "
                "[WHL19, eq. 23]. Below 1 a crack can reach the rim of its zone, where nothing breaks.",
                above(0.));
-  morphing.set("Growth Outer Radius", 4., "r_o [horizons]: where the morphing function of such a new zone reaches 0.",
-               above(0.));
+  morphing.set(
+      "Growth Outer Radius", 4.,
+      "r_o [horizons]: where the morphing function of such a new zone reaches 0. Too close to the inner radius, and "
+      "the steep rim gives spurious forces; larger costs bonds.",
+      above(0.));
   declare_seeds(morphing);
 }
 
@@ -144,8 +157,9 @@ void declare_displacements(ParameterList& conditions) {
   ParameterList& one = section(displacements, "*", "One component of one group.");
   one.set("Group", "left", "A physical group of the mesh.", required(text("the name of a group")));
   one.set("Component", "x", "The direction held or moved; the others stay free.", required(one_of(words(components))));
-  one.set("Rate", 0., "[length per increment]", any_number());
-  one.set("Constant", 0., "[length]", any_number());
+  one.set("Rate", 0., "[length per increment]: what loads the body; 0 holds it. Its sign is that of the axis.",
+          any_number());
+  one.set("Constant", 0., "[length], there from the first increment on.", any_number());
 }
 
 void declare_boundary_conditions(ParameterList& root) {
@@ -167,7 +181,11 @@ void declare_boundary_conditions(ParameterList& root) {
 
 void declare_loading(ParameterList& root) {
   ParameterList& loading = section(root, "Loading", "How far to go, and when to give up.");
-  loading.set("Increments", 100, "Load steps k = 1, 2, ... up to this one.", required(count()));
+  loading.set(
+      "Increments", 100,
+      "Load steps k = 1, 2, ... up to this one. Before the first break they cost next to nothing. With few large "
+      "ones the first break is known only to within a large step, and a crack that would grow slowly jumps.",
+      required(count()));
   loading.set(
       "Maximum Damage Iterations", 20000,
       "Solutions within one increment, after which the run ends with status 3. An unstable crack takes hundreds to "
@@ -203,7 +221,11 @@ void declare_solver(ParameterList& root) {
       "The same as Tolerance, in solutions after which bonds break [-]; not below Tolerance. Too loose, and bonds "
       "break in another order.",
       between(0., 1.));
-  solver.set("Maximum Iterations", 500, "Of conjugate gradients in one solution.", count());
+  solver.set(
+      "Maximum Iterations", 500,
+      "Of conjugate gradients in one solution. When they do not suffice, the system is tried once more with another "
+      "preconditioner; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
+      count());
   solver.set("Renewal Cost", 50.,
              "The preconditioner is renewed when, since its last set-up, solutions have taken so many iterations more "
              "than they would have with a new one [-]: what a set-up costs, in iterations.",
@@ -214,52 +236,15 @@ void declare_solver(ParameterList& root) {
 
 void declare_output(ParameterList& root) {
   ParameterList& output = section(root, "Output", "What is written, into the folder given by --output.");
-  output.set("Every", 1,
-             "Fields are written every so many increments; those with a break and the last one are written anyway.",
-             count());
+  output.set(
+      "Every", 1,
+      "Fields are written every so many increments; those with a break and the last one are written anyway. 1 shows "
+      "everything and may fill the disk in large runs.",
+      count());
   output.set(
       "Reactions", Texts(),
       "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed displacement.",
       names("a list of groups such as {left, right}"));
-}
-
-/// The text broken into lines, each indented.
-std::string wrapped(const std::string& text, const std::string& indent) {
-  constexpr std::size_t width = 100;
-  std::string all, line = indent;
-  std::istringstream in(text);
-  for (std::string word; in >> word;) {
-    if (line.size() > indent.size() && line.size() + 1 + word.size() > width) {
-      all += line + "\n";
-      line = indent;
-    }
-    line += (line.size() > indent.size() ? " " : "") + word;
-  }
-  return all + line + "\n";
-}
-
-std::string describe_parameter(const std::string& path, const Teuchos::ParameterEntry& entry) {
-  const Rule& rule = dynamic_cast<const Rule&>(*entry.validator());
-  const std::string value = to_literal(entry);
-  const std::string presence = rule.presence() == Presence::required   ? "required, such as " + value
-                               : rule.presence() == Presence::optional ? "optional, such as " + value
-                                                                       : "default " + (value.empty() ? "\"\"" : value);
-  return fmt::format("{}\n    {}; {}; allowed is {}\n{}\n", path, type_of(entry), presence, rule.allowed(),
-                     wrapped(entry.docString(), "    "));
-}
-
-std::string describe_list(const ParameterList& list, const std::string& path) {
-  std::string text;
-  for (const auto& item : list) {
-    const std::string here = path + "/" + item.first;
-    if (item.second.isList()) {
-      text += here + "/\n" + wrapped(item.second.docString(), "    ") + "\n" +
-              describe_list(list.sublist(item.first), here);
-    } else {
-      text += describe_parameter(here, item.second);
-    }
-  }
-  return text;
 }
 
 }  // namespace
@@ -276,15 +261,6 @@ ParameterList case_schema() {
   declare_solver(root);
   declare_output(root);
   return root;
-}
-
-std::string describe_schema() {
-  return "Every parameter of a case file. A path such as /Solver/Tolerance is\n"
-         "    <ParameterList name=\"Solver\"> <Parameter name=\"Tolerance\" type=\"double\" value=\"1e-6\"/> "
-         "</ParameterList>\n"
-         "in the file, and --set \"Solver/Tolerance=1e-6\" on the command line; * is a name of your choice.\n"
-         "Units are in brackets; any consistent set will do.\n\n" +
-         describe_list(case_schema(), "");
 }
 
 }  // namespace perimorph::fracture

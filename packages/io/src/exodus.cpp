@@ -108,6 +108,13 @@ std::vector<int> sizes_of(const std::vector<typename ExodusModel<dim>::Block>& b
 }
 
 template <int dim>
+std::vector<int> ids_of(const std::vector<typename ExodusModel<dim>::Block>& blocks) {
+  std::vector<int> ids;
+  for (const auto& block : blocks) ids.push_back(block.id > 0 ? block.id : static_cast<int>(ids.size()) + 1);
+  return ids;
+}
+
+template <int dim>
 void define_sizes(const File& file, const ExodusModel<dim>& model, const std::string& title, int n_elements) {
   ex_init_params sizes{};
   title.copy(sizes.title, MAX_LINE_LENGTH);
@@ -122,10 +129,12 @@ void define_sizes(const File& file, const ExodusModel<dim>& model, const std::st
 
 template <int dim>
 void define_blocks_and_sets(const File& file, const ExodusModel<dim>& model) {
-  int id = 0;
-  for (const auto& block : model.blocks) {
+  const std::vector<int> ids = ids_of<dim>(model.blocks);
+  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+    const auto& block = model.blocks[b];
+    const int id = ids[b];
     const auto type = mesh::exodus_name(block.type);
-    file.check(ex_put_block(file.id, EX_ELEM_BLOCK, ++id, type.c_str(), static_cast<int64_t>(block.element_ids.size()),
+    file.check(ex_put_block(file.id, EX_ELEM_BLOCK, id, type.c_str(), static_cast<int64_t>(block.element_ids.size()),
                             mesh::n_corners(block.type), 0, 0, 0),
                "element blocks");
     file.check(ex_put_name(file.id, EX_ELEM_BLOCK, id, block.name.c_str()), "names of the element blocks");
@@ -173,10 +182,10 @@ void put_element_ids(const File& file, const std::vector<typename ExodusModel<di
 
 template <int dim>
 void put_elements(const File& file, const std::vector<typename ExodusModel<dim>::Block>& blocks) {
-  int id = 0;
-  for (const auto& block : blocks) {
-    const std::vector<int> corners = one_based(block.connectivity);
-    file.check(ex_put_conn(file.id, EX_ELEM_BLOCK, ++id, corners.data(), nullptr, nullptr), "elements");
+  const std::vector<int> ids = ids_of<dim>(blocks);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const std::vector<int> corners = one_based(blocks[b].connectivity);
+    file.check(ex_put_conn(file.id, EX_ELEM_BLOCK, ids[b], corners.data(), nullptr, nullptr), "elements");
   }
 }
 
@@ -245,6 +254,7 @@ template <int dim>
 void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   close();
   block_sizes_ = sizes_of<dim>(model.blocks);
+  block_ids_ = ids_of<dim>(model.blocks);
   if (n_files_ == 0) remove_rest_of_series(file_);
   ++n_files_;
   n_steps_ = 0;
@@ -305,8 +315,8 @@ void ExodusSeries<dim>::write(const ExodusStep& step) {
   for (std::size_t v = 0; v < step.element.size(); ++v) {
     const double* values = step.element[v].data();
     for (std::size_t b = 0; b < block_sizes_.size(); ++b) {
-      const int variable = static_cast<int>(v) + 1, block = static_cast<int>(b) + 1;
-      check(ex_put_var(exodus_id_, n_steps_, EX_ELEM_BLOCK, variable, block, block_sizes_[b], values),
+      const int variable = static_cast<int>(v) + 1;
+      check(ex_put_var(exodus_id_, n_steps_, EX_ELEM_BLOCK, variable, block_ids_[b], block_sizes_[b], values),
             "element variables");
       values += block_sizes_[b];
     }

@@ -165,6 +165,25 @@ TEST(ExodusSeries, NamesIdsAndSetsReadBackOneBased) {
   EXPECT_THAT(file.set(EX_SIDE_SET, 1).second, ElementsAre(1, 1));
 }
 
+TEST(ExodusSeries, BlocksHaveTheIdsGivenAndTheirValuesGoWithThem) {
+  const test::TemporaryDirectory directory;
+  const std::string first = directory.file("case.e");
+  const Plate plate{2, 3, 1};
+  ExodusModel<2> model = model_of(plate);
+  model.blocks[0].id = 12;
+  model.blocks[1].id = 14;
+  {
+    ExodusSeries<2> series(first, "", plate_names, {});
+    series.start(model);
+    series.write(step_of(plate, model, 1., 0.));
+  }
+
+  const test::ExodusFile file(first);
+  EXPECT_EQ(file.topology(14), "QUAD4");
+  EXPECT_THAT(file.connectivity(14), ElementsAre(13, 14, 15, 16));
+  EXPECT_THAT(file.values(1, EX_ELEM_BLOCK, 2, 14, 1), ElementsAre(0.5));
+}
+
 TEST(ExodusSeries, AThreeDimensionalModelReadsBack) {
   const test::TemporaryDirectory directory;
   const std::string first = directory.file("cube.e");

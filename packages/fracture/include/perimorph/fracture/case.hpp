@@ -105,4 +105,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
 /// The schema as text: path, type, default, allowed values, documentation.
 std::string describe_schema();
 
+/// The same as a Markdown page, packages/PARAMETERS.md.
+std::string describe_schema_in_markdown();
+
 }  // namespace perimorph::fracture

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "perimorph/base/log.hpp"
+#include "perimorph/base/pace.hpp"
 #include "perimorph/fracture/body.hpp"
 #include "perimorph/io/exodus.hpp"
 #include "perimorph/io/history.hpp"
@@ -54,6 +55,7 @@ class Results {
   std::unique_ptr<io::ExodusSeries<dim>> series_;
   base::GlobalId broken_before_ = 0, topology_written_ = 0;
   int first_break_ = 0;
+  base::Pace pace_;
   double seconds_before_ = 0., last_word_ = 0.;  ///< elapsed at the last accepted increment, at the last line
   base::GlobalId total_solves_ = 0, total_iterations_ = 0;
 

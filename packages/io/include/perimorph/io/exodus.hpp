@@ -16,6 +16,7 @@ struct ExodusModel {
     mesh::ElementType type;
     std::vector<int> connectivity;            ///< 0-based nodes of this model, n_corners(type) an element
     std::vector<base::GlobalId> element_ids;  ///< global ids of the reference mesh, 0-based
+    int id = 0;  ///< the same for a name in all files of a series, or ParaView reads it twice; 0: its place, from 1
   };
   std::vector<base::Point<dim>> coordinates;                 ///< of the current topology's nodes, [length]
   std::vector<Block> blocks;                                 ///< none of them empty
@@ -61,7 +62,7 @@ class ExodusSeries {
   std::vector<std::string> information_;
   int exodus_id_ = -1;
   int n_files_ = 0, n_steps_ = 0;
-  std::vector<int> block_sizes_;
+  std::vector<int> block_sizes_, block_ids_;
   std::string current_file() const;
   void close();
   void check(int status, const char* what) const;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace perimorph::base {
+
+/// How fast a run goes, and what is left of it at that pace. Steps without a break take no time and steps with a
+/// running crack take long, so recent steps count most: a forecast of the next minutes, not of the whole run.
+class Pace {
+ public:
+  /// A step is done that took so many seconds.
+  void add(double seconds);
+
+  /// Seconds left when n steps are (the current one included), of which the current one has taken some already. [s]
+  /// A step that lasts longer than usual is taken to go on for as long as it is late.
+  double left(int n_steps, double seconds_in_current) const;
+
+ private:
+  double seconds_per_step_ = 0.;
+  bool has_steps_ = false;
+};
+
+/// For people: "40 s", "3 min", "2 h 5 min".
+std::string duration(double seconds);
+
+}  // namespace perimorph::base

@@ -1,0 +1,65 @@
+"""tools/new-case: every template makes a case that passes perimorph check, and mistakes are told.
+
+    new_case.py PERIMORPH RUN
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+PERIMORPH = sys.argv[1]
+del sys.argv[1:]
+TEMPLATES = sorted(folder.name for folder in (TOOLS / "templates").iterdir())
+
+
+class NewCase(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def new_case(self, *arguments):
+        return subprocess.run([TOOLS / "new-case", *map(str, arguments)], capture_output=True, text=True, timeout=30)
+
+    def test_every_template_makes_a_case_that_is_in_order(self):
+        self.assertLessEqual({"beam", "plate", "disk"}, set(TEMPLATES))
+        for template in TEMPLATES:
+            with self.subTest(template):
+                case = self.folder / "deep" / f"my-{template}"
+                made = self.new_case(case, "--from", template)
+                self.assertEqual(made.returncode, 0, made.stderr)
+                self.assertEqual(sorted(f.name for f in case.iterdir()),
+                                 ["README.md", f"my-{template}.geo", f"my-{template}.xml"])
+                for file in case.iterdir():
+                    self.assertNotIn("@NAME@", file.read_text(), file)
+
+                check = subprocess.run([PERIMORPH, "check", case / f"my-{template}.xml"],
+                                       capture_output=True, text=True, timeout=60)
+
+                self.assertEqual(check.returncode, 0, check.stderr)
+                self.assertIn("G_c = 0.1\n", check.stdout)
+                self.assertIn("peridynamic", check.stdout)
+
+    def assert_refused(self, made, *pieces):
+        self.assertEqual(made.returncode, 2, made.stderr)
+        for piece in pieces:
+            self.assertIn(piece, made.stderr)
+
+    def test_an_unknown_template_is_refused_and_the_nearest_offered(self):
+        self.assert_refused(self.new_case(self.folder / "x", "--from", "plat"), "--from plat", 'did you mean "plate"?')
+        self.assertFalse((self.folder / "x").exists())
+
+    def test_a_folder_that_is_there_already_is_left_alone(self):
+        self.assert_refused(self.new_case(self.folder, "--from", "beam"), "is there already")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_name_that_cannot_be_a_files_is_refused(self):
+        for name in ["my case", "x.y", "-x"]:
+            self.assert_refused(self.new_case("--from", "beam", "--", self.folder / name), f'"{name}"', "allowed are")
+
+
+if __name__ == "__main__":
+    unittest.main()

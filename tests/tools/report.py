@@ -1,0 +1,138 @@
+"""tools/report and tools/plot-history on a finished run; and what they share: events, log, parameters.
+
+    report.py PERIMORPH RUN
+"""
+
+import html.parser
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+RUN = pathlib.Path(sys.argv[2]) / "out"
+del sys.argv[1:]
+sys.path.insert(0, str(TOOLS))
+import runs
+
+
+class Page(html.parser.HTMLParser):
+    """Its text, tags and whatever its tags refer to."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.references, self.text = [], [], ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        self.references += [value for name, value in attributes if name in ("src", "href", "xlink:href", "data")]
+
+    def handle_data(self, data):
+        self.text += data
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def report(self, run, *options):
+        command = [TOOLS / "report", run, "-o", self.folder / "report.html", *options]
+        return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=100)
+
+    def page(self, *options, run=RUN):
+        made = self.report(run, *options)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        return Page((self.folder / "report.html").read_text())
+
+    def assert_stands_alone(self, page):
+        for reference in page.references:
+            self.assertTrue(reference.startswith(("data:image/png;base64,", "#")), reference[:80])
+        self.assertNotIn("script", page.tags)
+
+    def test_tells_what_was_run_and_what_happened(self):
+        page = self.page("--no-pictures")
+
+        self.assert_stands_alone(page)
+        self.assertEqual(page.tags.count("svg"), 2)
+        events = runs.events_of(runs.History(str(RUN)), "reaction_top_y")
+        for piece in ["Plate with an edge crack, pulled apart", "perimorph 0.", "400 elements", "on 1 rank",
+                      "/Peridynamics/Horizon", "/Solver/Tolerance", "preconditioner", "first break", "jump loss",
+                      f"{len(events)}. Increment"]:
+            self.assertIn(piece, page.text)
+        self.assertRegex(page.text, r"Warnings\s*None\.")
+
+    @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("xvfb-run"), "needs ParaView")
+    def test_has_pictures_of_each_event(self):
+        self.assertEqual(self.page().tags.count("img"), 3 * len(runs.events_of(runs.History(str(RUN)), "reaction_top_y")))
+
+    def test_warns_of_a_run_that_was_ended(self):
+        run = self.folder / "run"
+        shutil.copytree(RUN, run)
+        lines = (run / "history.csv").read_text().splitlines(keepends=True)
+        (run / "history.csv").write_text("".join(lines[:3]))
+        (run / "run.log").write_text("".join((RUN / "run.log").read_text().partition("  step ")[:1]))
+
+        page = self.page("--no-pictures", run=run)
+
+        self.assertIn("has reached increment 2 of 10", page.text)
+        self.assertIn("No bond has broken.", page.text)
+        self.assertIn("The run is not over.", page.text)
+
+    def test_what_is_no_run_is_refused(self):
+        for run, piece in [(self.folder / "absent", "no such directory"), (self.folder, "history.csv")]:
+            made = self.report(run)
+            self.assertEqual(made.returncode, 2)
+            self.assertIn(piece, made.stderr)
+
+    def test_the_curve_alone_is_a_picture(self):
+        picture = self.folder / "curve.png"
+        made = subprocess.run([TOOLS / "plot-history", RUN, "-o", picture], capture_output=True, text=True, timeout=60)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+
+class Events(unittest.TestCase):
+    def history(self, forces, broken):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        rows = [f"{n},{count},{force}" for n, (force, count) in enumerate(zip(forces, broken), start=1)]
+        file = os.path.join(folder.name, "history.csv")
+        pathlib.Path(file).write_text("\n".join(["increment,broken_bonds,reaction_top_y", *rows, ""]))
+        return runs.History(file)
+
+    def test_are_the_first_break_large_drops_and_the_end(self):
+        history = self.history([-1, -2, -3, -2.9, -4, -1, -1.5], [0, 0, 3, 4, 5, 90, 90])
+        found = runs.events_of(history, "reaction_top_y")
+        self.assertEqual([event.row for event in found], [2, 5, 6])
+        self.assertEqual([event.text for event in found], ["first break", "drop from 4 to 1", "last increment"])
+
+    def test_that_fall_together_are_one(self):
+        found = runs.events_of(self.history([1, 2, 0.1], [0, 0, 50]), "reaction_top_y")
+        self.assertEqual([(event.row, event.text) for event in found], [(2, "first break, drop from 2 to 0.1")])
+
+
+class LogFile(unittest.TestCase):
+    def test_of_a_finished_run_gives_ranks_and_profile(self):
+        log = runs.Log(str(RUN))
+        self.assertEqual((log.ranks, log.is_over, log.error, log.warnings), (1, True, "", []))
+        self.assertEqual([row[0] for row in log.profile][-1], "total")
+        self.assertTrue(all(re.fullmatch(r"\d+\.\d+", row[1]) for row in log.profile), log.profile)
+
+    def test_of_a_run_that_failed_gives_the_reason(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "run.log").write_text(
+                "Plate\nmesh  p.msh: 4 elements, 9 nodes on 12 ranks\n\nincrement 3: more than 1 solves\n"
+                "phase     seconds    share     calls\nread        1.000   100.0%         1\n")
+            log = runs.Log(folder)
+        self.assertEqual((log.ranks, log.error), (12, "increment 3: more than 1 solves"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,87 @@
+"""The README's "Your own part in ten minutes", done as it is written: its files, its changes, its commands.
+
+    tutorial.py PERIMORPH RUN
+"""
+
+import csv
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PERIMORPH = sys.argv[1]
+del sys.argv[1:]
+
+
+def tutorial():
+    text = (ROOT / "README.md").read_text()
+    return re.search(r"^## Your own part in ten minutes$(.*?)^## ", text, re.MULTILINE | re.DOTALL).group(1)
+
+
+def replace_list(root, new):
+    """Puts a parameter list in the place of the one with its name."""
+    places = [(parent, n) for parent in root.iter() for n, child in enumerate(parent) if child.get("name") == new.get("name")]
+    assert len(places) == 1, new.get("name")
+    parent, n = places[0]
+    parent[n] = new
+
+
+class Tutorial(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "tools").symlink_to(ROOT / "tools")
+        (self.folder / "build/drivers").mkdir(parents=True)
+        (self.folder / "build/drivers/perimorph").symlink_to(PERIMORPH)
+
+    def run_command(self, command):
+        words = shlex.split(command)
+        if words[0] == "tools/run":  # what is built is here; it must not build another
+            words = ["build/drivers/perimorph", "run", *words[1:]]
+        done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}\n{done.stderr}")
+        return done.stdout
+
+    def test_runs_as_it_is_written(self):
+        text = tutorial()
+        commands = re.findall(r"^    (\S.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
+        self.assertEqual(len(commands), 6)
+        self.run_command(commands[0])
+
+        geometry, = re.findall(r"```geo\n(.*?)```", text, re.DOTALL)
+        case = self.folder / "inputs/bracket/bracket.xml"
+        (self.folder / "inputs/bracket/bracket.geo").write_text(geometry)
+        tree = ElementTree.parse(case)
+        changes = re.findall(r"```xml\n(.*?)```", text, re.DOTALL)
+        self.assertEqual(len(changes), 4)
+        for change in changes:
+            replace_list(tree.getroot(), ElementTree.fromstring(change))
+        tree.write(case)
+
+        told = [self.run_command(command) for command in commands[1:]
+                if not command.startswith(("tools/render", "tools/report")) or shutil.which("pvbatch")]
+
+        stretch = re.search(r"critical\s+stretch\s+s_crit\s+=\s+([\d.]+)", told[0]).group(1)
+        self.assertIn(f"{float(stretch):.4f}", text)  # what the tutorial says about the results
+        with open(self.folder / "results/bracket/history.csv", newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        forces = [float(row["reaction_top_y"]) for row in rows]
+        first = next(n for n, row in enumerate(rows) if int(row["broken_bonds"]) > 0)
+        self.assertIn(f"in step {first + 1}", text)
+        before, after = map(float, re.search(r"from\s+(\d+)\s+to\s+(\d+)\s+N", text).groups())
+        self.assertAlmostEqual(max(forces) / before, 1, delta=0.02)
+        self.assertLess(abs(forces[forces.index(max(forces)) + 1] - after), 0.05 * before)  # what a few bonds hold, more or less
+        self.assertTrue((self.folder / "results/bracket/history.png").exists())
+        if shutil.which("pvbatch"):
+            self.assertTrue((self.folder / "results/bracket/report.html").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

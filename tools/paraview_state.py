@@ -1,0 +1,93 @@
+"""The state that tools/paraview opens; runs inside ParaView. What to open comes by the environment: PERIMORPH_FILES (the
+series, a name a line), PERIMORPH_WARP, and PERIMORPH_STATE if the state is to be written to a file."""
+
+import os
+
+import paraview.simple as pv
+
+# The element variable "class": number, name, colour (as in the pictures of tools/render).
+CLASSES = [("0", "FE", (0.78, 0.83, 0.88)), ("1", "MORPH", (0.96, 0.72, 0.32)), ("2", "PD", (0.42, 0.62, 0.80)),
+           ("3", "DGFE", (0.76, 0.20, 0.22))]
+DAMAGED = 0.3  # beside a straight crack elements lose about 40 % of their bonds
+
+
+def open_series(files):
+    """All files as one series. Variables keep their names (no merged vectors), and blocks stay apart."""
+    reader = pv.IOSSReader(registrationName="series", FileName=files)
+    reader.ScanForRelatedFiles = 0
+    reader.ApplyDisplacements = 0
+    reader.FieldSuffixSeparator = "|"
+    reader.UpdatePipelineInformation()
+    reader.NodeSets, reader.SideSets = [], []
+    reader.UpdatePipeline()
+    return reader
+
+
+def warped(reader, factor):
+    axes = [axis for axis in "xyz" if f"displacement_{axis}" in reader.PointData.keys()]
+    terms = [f"{axis.replace('x', 'i').replace('y', 'j').replace('z', 'k')}Hat*displacement_{axis}" for axis in axes]
+    vector = pv.Calculator(registrationName="displacement", Input=reader, AttributeType="Point Data",
+                           ResultArrayName="displacement", Function=" + ".join(terms))
+    return pv.WarpByVector(registrationName="warped", Input=vector, Vectors=["POINTS", "displacement"], ScaleFactor=factor)
+
+
+def colour_by_class(display, view):
+    pv.ColorBy(display, ("CELLS", "class"))
+    table = pv.GetColorTransferFunction("class")
+    table.InterpretValuesAsCategories = 1
+    table.Annotations = [text for number, name, _ in CLASSES for text in (number, name)]
+    table.IndexedColors = [part for _, _, colour in CLASSES for part in colour]
+    table.IndexedOpacities = [1.0] * len(CLASSES)
+    display.SetScalarBarVisibility(view, True)
+
+
+def damaged(body):
+    part = pv.Threshold(registrationName=f"damage above {DAMAGED}", Input=body, Scalars=["CELLS", "damage"])
+    part.ThresholdMethod = "Above Upper Threshold"
+    part.UpperThreshold = DAMAGED
+    return part
+
+
+def slice_of(body):
+    cut = pv.Slice(registrationName="slice", Input=body)
+    low, high = body.GetDataInformation().GetBounds()[0::2], body.GetDataInformation().GetBounds()[1::2]
+    cut.SliceType.Origin = [0.5 * (a + b) for a, b in zip(low, high)]
+    cut.SliceType.Normal = [1.0, 0.0, 0.0]
+    return cut
+
+
+def hide_ready(part, view):
+    """Coloured by damage, and shown when asked for."""
+    display = pv.Show(part, view)
+    pv.ColorBy(display, ("CELLS", "damage"))
+    pv.GetColorTransferFunction("damage").RescaleTransferFunction(0.0, 1.0)
+    display.SetScalarBarVisibility(view, False)
+    pv.Hide(part, view)
+
+
+def main():
+    view = pv.GetActiveViewOrCreate("RenderView")
+    reader = open_series(os.environ["PERIMORPH_FILES"].split("\n"))
+    last = reader.TimestepValues[-1]
+    scene = pv.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    scene.AnimationTime = view.ViewTime = last
+    body = warped(reader, float(os.environ["PERIMORPH_WARP"]))
+    body.UpdatePipeline(last)
+    display = pv.Show(body, view)
+    colour_by_class(display, view)
+    for part in (damaged(body), slice_of(body)):
+        part.UpdatePipeline(last)
+        hide_ready(part, view)
+    scene.AnimationTime = last  # showing parts may set it back
+    pv.SetActiveSource(body)
+    low, high = reader.GetDataInformation().GetBounds()[4:6]
+    view.InteractionMode = "2D" if low == high else "3D"
+    view.ResetCamera(False)
+    pv.Render(view)
+    if "PERIMORPH_STATE" in os.environ:
+        pv.SaveState(os.environ["PERIMORPH_STATE"])
+        print(os.environ["PERIMORPH_STATE"])
+
+
+main()
