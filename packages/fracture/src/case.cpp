@@ -55,6 +55,7 @@ void take_names(Case& result, const std::string& file, const ParameterList& list
   result.title = word(list, "Title");
   result.dimension = list.get<int>("Dimension");
   result.mesh_file = std::filesystem::path(result.directory) / word(list.sublist("Mesh"), "File");
+  result.mesh_scale = list.sublist("Mesh").get<double>("Scale");
 }
 
 void take_material(Case& result, const ParameterList& list) {

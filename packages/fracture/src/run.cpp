@@ -11,6 +11,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
 
@@ -114,9 +115,11 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   const TemporaryFolder folder;
   const auto log = base::make_log(*comm, talk == Talk::quiet);
   const auto problem = make_problem<dim>(input);
-  const auto mesh = load_mesh(*comm, input, problem, folder.path.string());
+  const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
+  const auto mesh = distribute_mesh(*comm, whole, problem);
   log->info("{}", listing(input.resolved, ""));
   describe(*comm, input, problem, mesh, log);
+  if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 
   Body<dim> body(comm, mesh, problem, body_options(input), profile);
   body.update_topology();
@@ -132,7 +135,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   sums.push_back(peak_memory());
   base::sum(*comm, sums);
   n_bonds = base::sum(*comm, n_bonds);
-  log->info("elements         {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", sums[0], sums[1], sums[2],
+  log->info("models           {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", sums[0], sums[1], sums[2],
             body.counts().dgfe_elements);
   log->info("at the start     {} unknowns, {} bonds, {:.2f} GB with the assembled matrix", body.counts().unknowns,
             n_bonds, sums[3] / 1e9);
