@@ -3,6 +3,8 @@
 #include "exodus_file.hpp"
 
 #include <exodusII.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,12 +78,29 @@ Container container_of(const std::string& file) {
                                     file, excerpt(start)));
 }
 
+/// Keeps a library's own words off the terminal while it opens a file: they are wrong when the file is damaged.
+class Silence {
+ public:
+  Silence() : terminal_(dup(STDERR_FILENO)), nowhere_(open("/dev/null", O_WRONLY)) { dup2(nowhere_, STDERR_FILENO); }
+  ~Silence() {
+    dup2(terminal_, STDERR_FILENO);
+    close(terminal_);
+    close(nowhere_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int terminal_, nowhere_;
+};
+
 /// An open Exodus file.
 class Handle {
  public:
   explicit Handle(const std::string& file) {
     int our_word_size = sizeof(double), file_word_size = 0;
     float version = 0.F;
+    const Silence silence;
     id_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &our_word_size, &file_word_size, &version);
   }
   ~Handle() {
