@@ -1,10 +1,11 @@
 // Any bytes are a case or the user's mistake: no crash, no other exception, no huge allocation.
 
+#include "perimorph/fracture/case.hpp"
+
 #include <algorithm>
 
 #include "input_file.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/fracture/case.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const perimorph::fuzz::InputFile input(".xml");

@@ -14,7 +14,8 @@ namespace perimorph::fuzz {
 /// The same file for all inputs of this process. It stays where a crash ended the process, and then holds its cause.
 class InputFile {
  public:
-  explicit InputFile(const std::string& ending) : name_("/dev/shm/perimorph_fuzz_" + std::to_string(getpid()) + ending) {}
+  explicit InputFile(const std::string& ending)
+      : name_("/dev/shm/perimorph_fuzz_" + std::to_string(getpid()) + ending) {}
   ~InputFile() { unlink(name_.c_str()); }
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;

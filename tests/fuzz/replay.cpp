@@ -1,5 +1,5 @@
-// A stand-in for libFuzzer's main program: every file of the corpus once, then changed ones for some seconds, always the
-// same in the same order.
+// A stand-in for libFuzzer's main program: every file of the corpus once, then changed ones for some seconds, always
+// the same in the same order.
 //
 //     fuzz_msh SECONDS CORPUS
 

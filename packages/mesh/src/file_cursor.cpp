@@ -95,14 +95,14 @@ void FileCursor::expect(const std::string& words) {
   } else if (remaining() < words.size() && found == words.substr(0, found.size())) {
     fail_truncated();
   } else {
-    fail(fmt::format("{} expected, found \"{}\"", words, excerpt(token())));
+    fail(fmt::format("{} expected, found \"{}\"", excerpt(words), excerpt(token())));
   }
 }
 
 void FileCursor::skip_to_line(const std::string& words) {
   const std::size_t found =
       text_.compare(position_, words.size(), words) == 0 ? position_ : text_.find('\n' + words, position_);
-  if (found == std::string::npos) fail(fmt::format("{} is missing: the file is truncated or damaged", words));
+  if (found == std::string::npos) fail(fmt::format("{} is missing: the file is truncated or damaged", excerpt(words)));
   position_ = found;
   skip_white_space();
 }
