@@ -63,6 +63,8 @@ Shape side_shape(int element_dimension, std::size_t n_side_nodes) {
   return n_side_nodes == 3 ? Shape::triangle : Shape::quadrangle;
 }
 
+bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
+
 enum class Container { netcdf, hdf5 };
 
 /// What the file is by its first bytes, before a library opens it.
@@ -195,6 +197,9 @@ class Reader {
     std::string name(longest_name + 1, '\0');
     if (ex_get_name(handle_.id(), kind, id, name.data()) < 0) name.clear();
     name.resize(std::min(name.find('\0'), name.size()));
+    if (std::any_of(name.begin(), name.end(), is_control)) {
+      fail("the name \"{}\" has control characters; allowed are readable names", excerpt(name));
+    }
     return name.empty() ? fmt::format("{}_{}", unnamed, id) : name;
   }
 
