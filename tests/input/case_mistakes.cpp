@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
                 R"xml(<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">)xml",
                 R"xml(:2: /Dimension: found "3"; allowed is 2: three dimensions are not built yet)xml"},
         Mistake{"MeshFile", "plate.geo", "plate.stl",
-                R"xml(:3: /Mesh/File: found "plate.stl"; allowed is the name of a .geo or .msh file)xml"},
+                R"xml(:3: /Mesh/File: found "plate.stl"; allowed is the name of a file that ends in ".geo" or )xml"},
         Mistake{"EmptyGroup", R"xml(value="left"/>)xml", R"xml(value=""/>)xml",
                 R"xml(/Displacements/hold/Group: found ""; allowed is the name of a group)xml"},
         Mistake{"Choice", elastic_model, R"xml(name="Elastic Model" type="string" value="plane stres")xml",

@@ -7,6 +7,7 @@
 #include "case_checks.hpp"
 #include "case_file.hpp"
 #include "choices.hpp"
+#include "perimorph/base/errors.hpp"
 #include "resolve.hpp"
 
 namespace perimorph::fracture {
@@ -52,9 +53,16 @@ void take_names(Case& result, const std::string& file, const ParameterList& list
   result.file = file;
   result.directory = path.has_parent_path() ? path.parent_path().string() : ".";
   result.name = path.stem();
+  if (result.name.find_first_not_of('.') == std::string::npos) {  // "..", and results/.. would be the folder above
+    throw base::UserError(
+        fmt::format("{}: its name without .xml names the results; found \"{}\", allowed are names with "
+                    "other characters than dots",
+                    file, result.name));
+  }
   result.title = word(list, "Title");
   result.dimension = list.get<int>("Dimension");
   result.mesh_file = std::filesystem::path(result.directory) / word(list.sublist("Mesh"), "File");
+  result.mesh_scale = list.sublist("Mesh").get<double>("Scale");
 }
 
 void take_material(Case& result, const ParameterList& list) {

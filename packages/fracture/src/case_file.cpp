@@ -158,7 +158,7 @@ class Reader {
     result.name = node.attribute("name").value();
     result.line = line(node);
     const bool control = std::any_of(result.name.begin(), result.name.end(),
-                                     [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+                                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
     if (!result.name.empty() && result.name.size() <= longest_name && !control) return true;
     add(node, path,
         result.name.empty() ? fmt::format("<{}> without a name; name=\"...\" is needed", node.name())

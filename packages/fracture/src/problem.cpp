@@ -3,10 +3,11 @@
 #include <filesystem>
 #include <limits>
 
+#include "mesh_checks.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/base/text.hpp"
 #include "perimorph/mesh/distribute.hpp"
 #include "perimorph/mesh/gmsh.hpp"
+#include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
 
@@ -66,36 +67,6 @@ std::string path_of_mesh(const Case& input, const std::string& folder) {
   return file.extension() == ".geo" ? (std::filesystem::path(folder) / file.stem()).string() + ".msh" : file.string();
 }
 
-template <class Groups>
-void check_group(const Case& input, const std::string& parameter, const std::string& group, const Groups& groups,
-                 const char* kind, std::string& mistakes) {
-  if (groups.count(group) != 0) return;
-  std::vector<std::string> names;
-  for (const auto& entry : groups) names.push_back(entry.first);
-  mistakes +=
-      fmt::format("\n{}: {}: the mesh {} has no {} called \"{}\"; it has {}{}", input.file, parameter, input.mesh_file,
-                  kind, group, names.empty() ? "none" : base::quoted_list(names), base::did_you_mean(group, names));
-}
-
-template <int dim>
-void check_groups(const Case& input, const mesh::Mesh<dim>& mesh) {
-  std::string mistakes;
-  for (const auto& d : input.displacements) {
-    check_group(input, "/Boundary Conditions/Displacements/" + d.name + "/Group", d.group, mesh.node_sets,
-                "group of nodes", mistakes);
-  }
-  for (const auto& t : input.tractions) {
-    check_group(input, "/Boundary Conditions/Tractions/" + t.name + "/Group", t.group, mesh.side_sets, "group of sides",
-                mistakes);
-  }
-  for (const auto& group : input.reactions) {
-    const bool is_checked = std::any_of(input.displacements.begin(), input.displacements.end(),
-                                        [&](const auto& d) { return d.group == group; });
-    if (!is_checked) check_group(input, "/Output/Reactions", group, mesh.node_sets, "group of nodes", mistakes);
-  }
-  if (!mistakes.empty()) throw base::UserError(mistakes.substr(1));
-}
-
 }  // namespace
 
 template <int dim>
@@ -127,21 +98,34 @@ Problem<dim> make_problem(const Case& input) {
 }
 
 template <int dim>
-mesh::Mesh<dim> load_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
-                          const std::string& folder) {
+mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
+                                const std::string& folder) {
   mesh::Mesh<dim> whole;
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
     const std::string file = path_of_mesh(input, folder);
     if (file != input.mesh_file) mesh::mesh_geometry(input.mesh_file, file, dim);
-    whole = mesh::read_gmsh<dim>(file);
+    whole = mesh::read_mesh<dim>(file, input.mesh_scale);
     if (!problem.pre_cracks.empty()) mesh::open_along<dim>(whole, problem.pre_cracks);
-    check_groups(input, whole);
+    check_against_mesh(input, whole);
   });
+  return whole;
+}
+
+template <int dim>
+mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem) {
   return mesh::distribute(comm, whole, problem.seeds.empty() ? 0. : problem.micromodulus.horizon);
 }
 
+template <int dim>
+mesh::Mesh<dim> load_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
+                          const std::string& folder) {
+  return distribute_mesh(comm, read_whole_mesh(comm, input, problem, folder), problem);
+}
+
 template Problem<2> make_problem<2>(const Case&);
+template mesh::Mesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const Problem<2>&, const std::string&);
+template mesh::Mesh<2> distribute_mesh<2>(const base::Comm&, const mesh::Mesh<2>&, const Problem<2>&);
 template mesh::Mesh<2> load_mesh<2>(const base::Comm&, const Case&, const Problem<2>&, const std::string&);
 
 }  // namespace perimorph::fracture

@@ -10,6 +10,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
+#include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
 
@@ -63,9 +64,11 @@ RulePtr text(const std::string& what) {
 }
 
 RulePtr mesh_file() {
-  return rule<std::string>("the name of a .geo or .msh file", [](const std::string& value) {
-    const std::string ending = std::filesystem::path(value).extension();
-    return ending == ".geo" || ending == ".msh";
+  std::vector<std::string> endings = mesh::mesh_file_endings();
+  endings.insert(endings.begin(), ".geo");
+  const std::string allowed = "the name of a file that ends in " + base::quoted_list(endings, " or ");
+  return rule<std::string>(allowed, [endings](const std::string& value) {
+    return std::find(endings.begin(), endings.end(), std::filesystem::path(value).extension()) != endings.end();
   });
 }
 

@@ -45,7 +45,7 @@ RulePtr optional(const RulePtr& rule);
 
 RulePtr any_text();
 RulePtr text(const std::string& what);  ///< not empty
-RulePtr mesh_file();                    ///< ends in .geo or .msh
+RulePtr mesh_file();                    ///< ends as a geometry or a mesh does
 RulePtr one_of(std::vector<std::string> choices);
 RulePtr any_number();
 RulePtr above(double low);

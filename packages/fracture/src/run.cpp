@@ -11,6 +11,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
 
@@ -18,9 +19,26 @@ using base::GlobalId;
 
 namespace {
 
-void make_folder(const base::Comm& comm, const std::string& folder) {
+/// The names that a run writes to are none of those that it reads.
+void check_that_input_is_spared(const Case& input, const std::string& folder) {
+  const auto is_result = [&](const std::string& file) {
+    std::error_code ignored;
+    for (const std::string& name : {std::string("resolved.xml"), input.name + ".e"}) {
+      if (std::filesystem::equivalent(std::filesystem::path(folder) / name, file, ignored)) return true;
+    }
+    return false;
+  };
+  for (const auto& [file, what] : {std::pair{input.file, "case"}, {input.mesh_file, "mesh"}}) {
+    if (!is_result(file)) continue;
+    throw base::UserError(
+        fmt::format("{}: the results would replace the {}: name another folder with --output", file, what));
+  }
+}
+
+void make_folder(const base::Comm& comm, const Case& input, const std::string& folder) {
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
+    check_that_input_is_spared(input, folder);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw base::UserError(fmt::format("{}: the output folder cannot be made: {}", folder, error.message()));
@@ -56,7 +74,7 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
 template <int dim>
 void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk) {
   base::Profile profile;
-  make_folder(*comm, folder);
+  make_folder(*comm, input, folder);
   base::Log log;
   base::on_all_ranks(*comm, [&] { log = base::make_log(*comm, talk == Talk::quiet, folder + "/run.log"); });
   try {
@@ -114,9 +132,11 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   const TemporaryFolder folder;
   const auto log = base::make_log(*comm, talk == Talk::quiet);
   const auto problem = make_problem<dim>(input);
-  const auto mesh = load_mesh(*comm, input, problem, folder.path.string());
+  const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
+  const auto mesh = distribute_mesh(*comm, whole, problem);
   log->info("{}", listing(input.resolved, ""));
   describe(*comm, input, problem, mesh, log);
+  if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 
   Body<dim> body(comm, mesh, problem, body_options(input), profile);
   body.update_topology();
@@ -132,7 +152,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   sums.push_back(peak_memory());
   base::sum(*comm, sums);
   n_bonds = base::sum(*comm, n_bonds);
-  log->info("elements         {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", sums[0], sums[1], sums[2],
+  log->info("models           {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", sums[0], sums[1], sums[2],
             body.counts().dgfe_elements);
   log->info("at the start     {} unknowns, {} bonds, {:.2f} GB with the assembled matrix", body.counts().unknowns,
             n_bonds, sums[3] / 1e9);

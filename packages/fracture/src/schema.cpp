@@ -23,11 +23,17 @@ ParameterList& section(ParameterList& parent, const std::string& name, const std
 void declare_general(ParameterList& root) {
   root.set("Title", "", "A line about the case, for people.", any_text());
   root.set("Dimension", 2, "Dimensions of space.", exactly(2, "three dimensions are not built yet"));
-  section(root, "Mesh", "Where the body comes from.")
-      .set("File", "plate.geo",
-           "gmsh geometry (.geo, meshed on the way and kept) or mesh (.msh), relative to the case file's folder. Its "
-           "physical groups are the names that boundary conditions refer to.",
-           required(mesh_file()));
+  ParameterList& mesh = section(root, "Mesh", "Where the body comes from.");
+  mesh.set(
+      "File", "plate.geo",
+      "gmsh geometry (.geo, meshed on the way and kept), or mesh of gmsh (.msh), Exodus (.e, .exo) or ANSYS (.cdb, "
+      "blocked archive), relative to the case file's folder. Its physical groups, sets or components are the names "
+      "that boundary conditions refer to.",
+      required(mesh_file()));
+  mesh.set("Scale", 1.,
+           "Factor on the coordinates in that file [-]: 1000 for a mesh in m and a case in mm. All lengths in the case "
+           "are those after scaling.",
+           above(0.));
 }
 
 void declare_material(ParameterList& root) {

@@ -6,21 +6,26 @@
 #include <cstdlib>
 #include <set>
 
-#include "gmsh_cursor.hpp"
+#include "file_cursor.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::mesh {
 
 namespace {
 
-constexpr std::array<GmshKind, 6> kinds = {{{15, 0, 1}, {1, 1, 2}, {2, 2, 3}, {3, 2, 4}, {4, 3, 4}, {5, 3, 8}}};
+constexpr int no_groups = 0;  // index into MeshFile::group_lists
 
-constexpr int no_groups = 0;  // index into GmshFile::group_lists
+/// By gmsh's numbers of kinds of elements (its manual, "Node ordering" and "MSH file format").
+const std::map<int, Shape> shapes = {{15, Shape::point},     {1, Shape::line},        {2, Shape::triangle},
+                                     {3, Shape::quadrangle}, {4, Shape::tetrahedron}, {5, Shape::hexahedron}};
 
-const GmshKind* find_kind(int number) {
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const GmshKind& k) { return k.number == number; });
-  return found == kinds.end() ? nullptr : &*found;
-}
+const Advice advice = {
+    "mesh it with gmsh -2 (or -3), and put what is to be computed into a physical surface (or volume)",
+    "Take points that only help to draw (such as the centre of a circle) out of the physical groups, and put all that "
+    "is "
+    "to be computed into a physical surface (or volume)",
+    "If a whole surface is reversed, write its curve loop in the .geo file the other way round, or add  ReverseMesh "
+    "Surface{...};"};
 
 std::string name_of_other_kind(int number) {
   static const std::map<int, const char*> names = {
@@ -39,9 +44,12 @@ int group_number(int signed_number) { return static_cast<int>(std::abs(static_ca
 /// Reads one file from front to back.
 class Reader {
  public:
-  explicit Reader(const std::string& file) : cursor_(file) {}
+  explicit Reader(const std::string& file) : cursor_(file, "a gmsh mesh") {
+    result_.name = file;
+    result_.advice = advice;
+  }
 
-  GmshFile read() {
+  MeshFile read() {
     read_format();
     while (!cursor_.at_end()) read_section();
     for (const char* needed : {"$Nodes", "$Elements"}) {
@@ -49,6 +57,7 @@ class Reader {
         cursor_.fail(fmt::format("the file ends without {}: it is truncated or holds no mesh", needed));
       }
     }
+    name_the_unnamed();
     return std::move(result_);
   }
 
@@ -141,7 +150,7 @@ class Reader {
     for (int i = 0; i < n_box; ++i) cursor_.next_real();
     std::vector<int> groups(cursor_.checked(cursor_.next_long(), 1, 4));
     for (auto& group : groups) group = group_number(cursor_.next_int());
-    if (!groups.empty()) list_of_entity_[{dimension, number}] = add_list(groups);
+    if (!groups.empty()) list_of_entity_[{dimension, number}] = result_.add_group_list(groups);
     if (dimension == 0) return;
     for (std::size_t n = cursor_.checked(cursor_.next_long(), 1, 4); n > 0; --n) cursor_.next_int();
   }
@@ -185,8 +194,8 @@ class Reader {
     for (std::size_t n = cursor_.checked(cursor_.next_long(), 2, 16); n > 0; --n) {
       const std::int64_t tag = cursor_.next_long();
       begin_element(tag, kind, groups);
-      for (int i = 0; i < gmsh_kind(kind).n_nodes; ++i) result_.element_nodes.push_back(cursor_.next_long());
-      end_element();
+      for (int i = 0; i < n_nodes(result_.shapes.back()); ++i) result_.element_nodes.push_back(cursor_.next_long());
+      result_.end_element();
     }
   }
 
@@ -239,14 +248,14 @@ class Reader {
       if (t == 0) group = group_number(tag);
     }
     begin_element(number, kind, list_of_group(group));
-    for (int i = 0; i < gmsh_kind(kind).n_nodes; ++i) result_.element_nodes.push_back(cursor_.next_int());
-    end_element();
+    for (int i = 0; i < n_nodes(result_.shapes.back()); ++i) result_.element_nodes.push_back(cursor_.next_int());
+    result_.end_element();
   }
 
   int list_of_group(int group) {
     if (group == 0) return no_groups;
     const auto found = list_of_group_.find(group);
-    return found != list_of_group_.end() ? found->second : list_of_group_[group] = add_list({group});
+    return found != list_of_group_.end() ? found->second : list_of_group_[group] = result_.add_group_list({group});
   }
 
   // ---- common to both ----
@@ -262,7 +271,7 @@ class Reader {
 
   void reserve_elements(std::size_t n) {
     result_.element_tags.reserve(n);
-    result_.element_kinds.reserve(n);
+    result_.shapes.reserve(n);
     result_.element_groups.reserve(n);
     result_.first_node.reserve(n + 1);
   }
@@ -272,34 +281,37 @@ class Reader {
     for (auto& x : point) x = cursor_.next_real();
   }
 
-  int add_list(std::vector<int> groups) {
-    std::sort(groups.begin(), groups.end());
-    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-    result_.group_lists.push_back(std::move(groups));
-    return static_cast<int>(result_.group_lists.size()) - 1;
-  }
-
   void begin_element(std::int64_t tag, int kind, int groups) {
-    if (find_kind(kind) == nullptr) {
+    const auto shape = shapes.find(kind);
+    if (shape == shapes.end()) {
       cursor_.fail(
           fmt::format("element {} is {}; allowed are 3-node triangles and 4-node quadrangles in 2D, 4-node tetrahedra "
                       "and 8-node hexahedra in 3D (with Mesh.ElementOrder = 1)",
                       tag, name_of_other_kind(kind)));
     }
-    result_.element_tags.push_back(tag);
-    result_.element_kinds.push_back(kind);
-    result_.element_groups.push_back(groups);
+    result_.begin_element(tag, shape->second, groups);
   }
 
-  void end_element() { result_.first_node.push_back(result_.element_nodes.size()); }
+  void name_the_unnamed() {
+    static constexpr std::array<const char*, 4> entities = {"point", "curve", "surface", "volume"};
+    for (std::size_t e = 0; e < result_.n_elements(); ++e) {
+      const int dimension_of_element = dimension(result_.shapes[e]);
+      for (const int group : result_.group_lists[result_.element_groups[e]]) {
+        const GroupKey key{dimension_of_element, group};
+        if (result_.group_names.count(key) == 0) {
+          result_.group_names[key] = fmt::format("{}_{}", entities[dimension_of_element], group);
+        }
+      }
+    }
+  }
 
   void check_total(const char* what, std::size_t announced, std::size_t found) {
     if (found == announced) return;
     cursor_.fail(fmt::format("{} {} announced, {} found: the file is damaged", announced, what, found));
   }
 
-  GmshCursor cursor_;
-  GmshFile result_;
+  FileCursor cursor_;
+  MeshFile result_;
   bool is_4_1_ = false;
   std::set<std::string> sections_;
   std::map<GroupKey, int> list_of_entity_;  // 4.1: by dimension and number of the entity
@@ -308,12 +320,6 @@ class Reader {
 
 }  // namespace
 
-const GmshKind& gmsh_kind(int number) {
-  const GmshKind* kind = find_kind(number);
-  PERIMORPH_ASSERT(kind != nullptr, "gmsh's kind {} is not among those that the reader lets pass", number);
-  return *kind;
-}
-
-GmshFile read_gmsh_file(const std::string& file) { return Reader(file).read(); }
+MeshFile read_gmsh_file(const std::string& file) { return Reader(file).read(); }
 
 }  // namespace perimorph::mesh

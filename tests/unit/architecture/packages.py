@@ -21,7 +21,7 @@ LINEAR_ALGEBRA_IN = {
     "fracture": ["Tpetra_Vector", "Tpetra_Import"],
 }
 EXODUS = re.compile(r"(exodusII|netcdf)")
-EXODUS_IN = {"io": None}
+EXODUS_IN = {"io": None, "mesh": ["exodusII"]}
 
 
 def ordered_packages(source):
@@ -189,9 +189,9 @@ class PlantedViolations(unittest.TestCase):
         self.assert_found("BelosTypes.hpp does not belong into fracture")
         self.assert_found("Tpetra_CrsMatrix_fwd.hpp does not belong into fracture")
 
-    def test_exodus_outside_io(self):
-        self.append("mesh/src/gmsh.cpp", "#include <exodusII.h>")
-        self.assert_found("exodusII.h does not belong into mesh")
+    def test_exodus_outside_mesh_and_io(self):
+        self.append("bonds/src/visibility.cpp", "#include <exodusII.h>")
+        self.assert_found("exodusII.h does not belong into bonds")
 
     def test_a_package_without_readme(self):
         readme = self.copy / "packages/bonds/README.md"

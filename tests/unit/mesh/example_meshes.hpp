@@ -2,6 +2,8 @@
 
 // Small meshes for the tests of this folder.
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -89,5 +91,20 @@ void perturb(Mesh<dim>& mesh) {
 }
 
 inline bool operator==(const Side& a, const Side& b) { return a.element == b.element && a.side == b.side; }
+
+template <int dim>
+void expect_same(const Mesh<dim>& a, const Mesh<dim>& b, double tolerance = 1e-14) {
+  ASSERT_EQ(a.n_nodes(), b.n_nodes());
+  // ASCII files have 16 digits.
+  for (int n = 0; n < a.n_nodes(); ++n) EXPECT_LT((a.coordinates[n] - b.coordinates[n]).norm(), tolerance);
+  EXPECT_EQ(a.types, b.types);
+  EXPECT_EQ(a.corners, b.corners);
+  EXPECT_EQ(a.first_corner, b.first_corner);
+  EXPECT_EQ(a.block_names, b.block_names);
+  EXPECT_EQ(a.blocks, b.blocks);
+  EXPECT_EQ(a.node_sets, b.node_sets);
+  EXPECT_EQ(a.side_sets, b.side_sets);
+  EXPECT_EQ(a.boundary, b.boundary);
+}
 
 }  // namespace perimorph::mesh

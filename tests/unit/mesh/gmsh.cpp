@@ -1,4 +1,4 @@
-#include "perimorph/mesh/gmsh.hpp"
+// The gmsh reader, and running gmsh.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,26 +21,11 @@ constexpr std::array<Flavour, 4> flavours = {{{"msh41", "-format msh41"},
                                               {"msh22_binary", "-format msh22 -bin"}}};
 
 template <int dim>
-void expect_same(const Mesh<dim>& a, const Mesh<dim>& b) {
-  ASSERT_EQ(a.n_nodes(), b.n_nodes());
-  // ASCII files have 16 digits.
-  for (int n = 0; n < a.n_nodes(); ++n) EXPECT_LT((a.coordinates[n] - b.coordinates[n]).norm(), 1e-14);
-  EXPECT_EQ(a.types, b.types);
-  EXPECT_EQ(a.corners, b.corners);
-  EXPECT_EQ(a.first_corner, b.first_corner);
-  EXPECT_EQ(a.block_names, b.block_names);
-  EXPECT_EQ(a.blocks, b.blocks);
-  EXPECT_EQ(a.node_sets, b.node_sets);
-  EXPECT_EQ(a.side_sets, b.side_sets);
-  EXPECT_EQ(a.boundary, b.boundary);
-}
-
-template <int dim>
 void expect_same_in_all_flavours(const std::string& geo) {
-  const Mesh<dim> expected = read_gmsh<dim>(meshed(geo, dim, flavours[0].options, flavours[0].name));
+  const Mesh<dim> expected = read_mesh<dim>(meshed(geo, dim, flavours[0].options, flavours[0].name));
   for (const Flavour& flavour : flavours) {
     SCOPED_TRACE(flavour.name);
-    expect_same(read_gmsh<dim>(meshed(geo, dim, flavour.options, flavour.name)), expected);
+    expect_same(read_mesh<dim>(meshed(geo, dim, flavour.options, flavour.name)), expected);
   }
 }
 
@@ -49,7 +34,7 @@ TEST(Gmsh, UnstructuredPlateIsTheSameInAllFlavours) { expect_same_in_all_flavour
 TEST(Gmsh, ExtrudedBlockIsTheSameInAllFlavours) { expect_same_in_all_flavours<3>(extruded_block); }
 
 TEST(Gmsh, StructuredPlateHasItsCellsAndGroups) {
-  const Mesh<2> mesh = read_gmsh<2>(meshed(structured_plate, 2, "-format msh41", "plate"));
+  const Mesh<2> mesh = read_mesh<2>(meshed(structured_plate, 2, "-format msh41", "plate"));
 
   EXPECT_EQ(mesh.n_elements(), 12);
   EXPECT_EQ(mesh.n_nodes(), 20);
@@ -64,7 +49,7 @@ TEST(Gmsh, StructuredPlateHasItsCellsAndGroups) {
 }
 
 TEST(Gmsh, UnstructuredPlateHasBothKindsInTheirBlocks) {
-  const Mesh<2> mesh = read_gmsh<2>(meshed(unstructured_plate, 2, "-format msh41 -bin", "plate"));
+  const Mesh<2> mesh = read_mesh<2>(meshed(unstructured_plate, 2, "-format msh41 -bin", "plate"));
 
   EXPECT_THAT(mesh.block_names, ElementsAre("soft", "stiff"));
   for (int e = 0; e < mesh.n_elements(); ++e) {
@@ -78,7 +63,7 @@ TEST(Gmsh, UnstructuredPlateHasBothKindsInTheirBlocks) {
 }
 
 TEST(Gmsh, AnInnerSideOfASetBelongsToTheLowerOfItsElements) {
-  const Mesh<2> mesh = read_gmsh<2>(meshed(unstructured_plate, 2, "-format msh41", "plate"));
+  const Mesh<2> mesh = read_mesh<2>(meshed(unstructured_plate, 2, "-format msh41", "plate"));
 
   ASSERT_FALSE(mesh.side_sets.at("interface").empty());
   for (const Side& side : mesh.side_sets.at("interface")) {
@@ -88,7 +73,7 @@ TEST(Gmsh, AnInnerSideOfASetBelongsToTheLowerOfItsElements) {
 }
 
 TEST(Gmsh, ExtrudedBlockHasHexahedraAndAFaceSet) {
-  const Mesh<3> mesh = read_gmsh<3>(meshed(extruded_block, 3, "-format msh41 -bin", "block"));
+  const Mesh<3> mesh = read_mesh<3>(meshed(extruded_block, 3, "-format msh41 -bin", "block"));
 
   EXPECT_EQ(mesh.n_elements(), 3 * 2 * 2);
   EXPECT_EQ(mesh.n_nodes(), 4 * 3 * 3);
@@ -101,14 +86,14 @@ TEST(Gmsh, ExtrudedBlockHasHexahedraAndAFaceSet) {
 
 TEST(Gmsh, TetrahedraAreRead) {
   const std::string geo = "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1}; Mesh.MeshSizeMax = 0.5;";
-  const Mesh<3> mesh = read_gmsh<3>(meshed(geo, 3, "-format msh41 -bin", "box"));
+  const Mesh<3> mesh = read_mesh<3>(meshed(geo, 3, "-format msh41 -bin", "box"));
   EXPECT_THAT(mesh.types, testing::Each(ElementType::tet4));
   EXPECT_GT(mesh.n_elements(), 20);
 }
 
 TEST(Gmsh, NodesAndElementsKeepTheFilesOrder) {
   for (const auto& text : {two_squares_2_2, two_squares_4_1}) {
-    const Mesh<2> mesh = read_gmsh<2>(written("squares.msh", text));
+    const Mesh<2> mesh = read_mesh<2>(written("squares.msh", text));
 
     EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 4, 3, 1, 2, 5, 4));
     EXPECT_THAT(mesh.node_ids, ElementsAre(0, 1, 2, 3, 4, 5));
@@ -119,7 +104,7 @@ TEST(Gmsh, NodesAndElementsKeepTheFilesOrder) {
 }
 
 TEST(Gmsh, AWholeMeshBelongsToRankZero) {
-  const Mesh<2> mesh = read_gmsh<2>(written("squares.msh", two_squares_2_2));
+  const Mesh<2> mesh = read_mesh<2>(written("squares.msh", two_squares_2_2));
 
   EXPECT_EQ(mesh.rank, 0);
   EXPECT_EQ(mesh.n_owned_nodes, 6);
@@ -136,7 +121,7 @@ TEST(Gmsh, WithoutAnyGroupAllIsOneBlockCalledBody) {
       "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};"
       "Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n";
   for (const Flavour& flavour : flavours) {
-    const Mesh<2> mesh = read_gmsh<2>(meshed(geo, 2, flavour.options, flavour.name));
+    const Mesh<2> mesh = read_mesh<2>(meshed(geo, 2, flavour.options, flavour.name));
     EXPECT_THAT(mesh.block_names, ElementsAre("body")) << flavour.name;
     EXPECT_TRUE(mesh.node_sets.empty()) << flavour.name;
   }
@@ -145,7 +130,7 @@ TEST(Gmsh, WithoutAnyGroupAllIsOneBlockCalledBody) {
 TEST(Gmsh, AGroupWithoutANameIsCalledByItsDimensionAndNumber) {
   const std::string text = replaced(two_squares_2_2, "2\n1 7 \"left\"\n2 1 \"plate\"\n", "0\n");
 
-  const Mesh<2> mesh = read_gmsh<2>(written("squares.msh", text));
+  const Mesh<2> mesh = read_mesh<2>(written("squares.msh", text));
 
   EXPECT_THAT(mesh.block_names, ElementsAre("surface_1"));
   EXPECT_EQ(mesh.node_sets.count("curve_7"), 1u);
@@ -154,13 +139,13 @@ TEST(Gmsh, AGroupWithoutANameIsCalledByItsDimensionAndNumber) {
 TEST(Gmsh, UnknownSectionsAndWindowsLineEndsDoNotMatter) {
   std::string text = two_squares_4_1 + "$NodeData\n1\n\"anything\"\n$EndNodeData\n";
   for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + 2)) text.insert(i, "\r");
-  EXPECT_EQ(read_gmsh<2>(written("squares.msh", text)).n_elements(), 2);
+  EXPECT_EQ(read_mesh<2>(written("squares.msh", text)).n_elements(), 2);
 }
 
 TEST(Gmsh, TheMeshMayLieInAnyPlaneOfConstantZ) {
   const std::string geo =
       replaced(structured_plate, "Point(1)", "dz = 5; Point(1)") + "Translate {0, 0, dz} { Surface{1}; }";
-  EXPECT_EQ(read_gmsh<2>(meshed(geo, 2, "-format msh41", "raised")).n_elements(), 12);
+  EXPECT_EQ(read_mesh<2>(meshed(geo, 2, "-format msh41", "raised")).n_elements(), 12);
 }
 
 // ---- running gmsh ----
@@ -171,7 +156,7 @@ TEST(MeshGeometry, RunsGmshAndKeepsABinaryFile) {
   mesh_geometry(geo, msh, 2);
 
   EXPECT_EQ(contents(msh).substr(0, 20), "$MeshFormat\n4.1 1 8\n");
-  EXPECT_EQ(read_gmsh<2>(msh).n_elements(), 12);
+  EXPECT_EQ(read_mesh<2>(msh).n_elements(), 12);
 }
 
 std::string error_of_meshing(const std::string& geo, const std::string& msh) {

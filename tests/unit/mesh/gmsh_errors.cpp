@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <random>
 
@@ -29,13 +30,21 @@ TEST(GmshErrors, MissingFile) {
 }
 
 TEST(GmshErrors, Folder) {
-  const std::string folder = std::filesystem::path(test_file("mesh.msh")).parent_path().string();
-  EXPECT_EQ(error_of_reading<2>(folder), folder + ": is a folder, not a gmsh file");
+  const std::string folder = test_file("folder.msh");
+  std::filesystem::create_directories(folder);
+  EXPECT_EQ(error_of_reading<2>(folder), folder + ": is a folder, not a gmsh mesh");
+}
+
+TEST(GmshErrors, PipeForAFileDoesNotWait) {
+  const std::string pipe = test_file("pipe.msh");
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(error_of_reading<2>(pipe), pipe + ": is not a regular file, as a gmsh mesh must be");
 }
 
 TEST(GmshErrors, EmptyFile) {
-  EXPECT_EQ(error_of(""), ": the file is empty");
-  EXPECT_EQ(error_of(" \n\n"), ": the file is empty");
+  EXPECT_EQ(error_of(""), ": the file is empty; a gmsh mesh is needed");
+  EXPECT_EQ(error_of(" \n\n"), ": the file is empty; a gmsh mesh is needed");
 }
 
 TEST(GmshErrors, NoGmshFile) {
@@ -119,25 +128,25 @@ TEST(GmshErrors, ElementsOfAnotherKind) {
 }
 
 TEST(GmshErrors, InvertedElement) {
-  EXPECT_EQ(
-      error_of(replaced(two_squares_2_2, "1 2 5 4", "4 5 2 1")),
-      ": element 12 is inverted (1 of 2 elements are inverted or degenerate). If these are all of one surface, its "
-      "orientation is reversed: write its curve loop the other way round, or add  ReverseMesh Surface{...};");
+  EXPECT_EQ(error_of(replaced(two_squares_2_2, "1 2 5 4", "4 5 2 1")),
+            ": element 12 is inverted (1 of 2 elements are inverted or degenerate). If a whole surface is reversed, "
+            "write its "
+            "curve loop in the .geo file the other way round, or add  ReverseMesh Surface{...};");
 }
 
 TEST(GmshErrors, AllElementsInverted) {
   const std::string text = replaced(replaced(two_squares_2_2, "1 2 5 4", "4 5 2 1"), "2 3 6 5", "5 6 3 2");
-  EXPECT_EQ(
-      error_of(text),
-      ": all 2 elements are inverted (the first is element 12): the orientation of the surface is reversed. In the "
-      ".geo file write the curve loop the other way round, or add  ReverseMesh Surface{...};");
+  EXPECT_EQ(error_of(text),
+            ": all 2 elements are inverted (the first is element 12). If a whole surface is reversed, write its curve "
+            "loop in "
+            "the .geo file the other way round, or add  ReverseMesh Surface{...};");
 }
 
 TEST(GmshErrors, ReverseMeshIsTheCureForAReversedSurface) {
   const std::string reversed = replaced(structured_plate, "{1, 2, 3, 4}; Plane", "{-4, -3, -2, -1}; Plane");
 
   EXPECT_THAT(error_of_reading<2>(meshed(reversed, 2, "-format msh41", "reversed")), HasSubstr("all 12 elements are"));
-  EXPECT_EQ(read_gmsh<2>(meshed(reversed + "ReverseMesh Surface{1};", 2, "-format msh41", "cured")).n_elements(), 12);
+  EXPECT_EQ(read_mesh<2>(meshed(reversed + "ReverseMesh Surface{1};", 2, "-format msh41", "cured")).n_elements(), 12);
 }
 
 TEST(GmshErrors, DegenerateElement) {
@@ -175,9 +184,10 @@ TEST(GmshErrors, NodeTwice) {
 TEST(GmshErrors, NodesThatNoElementUses) {
   const std::string text =
       replaced(replaced(two_squares_2_2, "$Nodes\n6", "$Nodes\n8"), "6 2 1 0\n", "6 2 1 0\n77 5 5 0\n78 6 6 0\n");
-  EXPECT_EQ(error_of(text),
-            ": 2 node(s) belong to no 2D element: 77, 78. Take points that only help to draw (such as the centre of a "
-            "circle) out of the physical groups, and put all that is to be computed into a physical surface");
+  EXPECT_EQ(
+      error_of(text),
+      ": 2 node(s) belong to no 2D element: 77, 78. Take points that only help to draw (such as the centre of a "
+      "circle) out of the physical groups, and put all that is to be computed into a physical surface (or volume)");
 }
 
 TEST(GmshErrors, TheCentreOfACircleInAPhysicalGroup) {
@@ -187,7 +197,7 @@ TEST(GmshErrors, TheCentreOfACircleInAPhysicalGroup) {
 
 TEST(GmshErrors, MeshOfAnotherDimension) {
   EXPECT_THAT(error_of<3>(two_squares_2_2),
-              HasSubstr("the mesh has no elements of dimension 3, its highest is 2: mesh it with gmsh -3"));
+              HasSubstr("the mesh has no elements of dimension 3, its highest is 2: mesh it with gmsh -2 (or -3)"));
   EXPECT_THAT(error_of_reading<2>(meshed(extruded_block, 3, "-format msh41", "block")),
               HasSubstr("is of dimension 3, but the case has dimension 2"));
 }
@@ -207,7 +217,7 @@ TEST(GmshErrors, NodesOutOfThePlane) {
 
 TEST(GmshErrors, ElementInNoGroupWhileOthersAre) {
   EXPECT_EQ(error_of(replaced(two_squares_2_2, "13 3 2 1 3", "13 3 2 0 3")),
-            ": element 13 is in no physical group, but others are (blocks \"plate\"): each element must be in exactly "
+            ": element 13 is in no group, but others are (blocks \"plate\"): each element must be in exactly "
             "one, or all in none");
 }
 
@@ -215,7 +225,7 @@ TEST(GmshErrors, ElementInTwoGroups) {
   const std::string geo = structured_plate + "Physical Surface(\"again\", 9) = {1};";
   for (const char* options : {"-format msh41", "-format msh41 -bin", "-format msh22", "-format msh22 -bin"}) {
     const std::string message = error_of_reading<2>(meshed(geo, 2, options, "twice"));
-    EXPECT_THAT(message, HasSubstr("is in two physical groups, \"plate\" and \"again\"")) << options;
+    EXPECT_THAT(message, HasSubstr("is in two groups, \"plate\" and \"again\"")) << options;
     EXPECT_THAT(message, HasSubstr("each element must be in exactly one")) << options;
   }
 }
@@ -223,12 +233,12 @@ TEST(GmshErrors, ElementInTwoGroups) {
 TEST(GmshErrors, TwoGroupsOfOneName) {
   const std::string geo = structured_plate + "Physical Point(\"left\", 9) = {3};";
   EXPECT_THAT(error_of_reading<2>(meshed(geo, 2, "-format msh41", "names")),
-              HasSubstr("two physical groups are named \"left\": point 9 and curve 2; give each its own name"));
+              HasSubstr("two groups are named \"left\": point 9 and curve 2; give each its own name"));
 }
 
 TEST(GmshErrors, SideSetThatIsNoSide) {
   EXPECT_EQ(error_of(replaced(two_squares_2_2, "11 1 2 7 1 4 1", "11 1 2 7 1 4 2")),
-            ": element 11 of the physical group \"left\" is no side of any 2D element");
+            ": element 11 of the group \"left\" is no side of any 2D element");
 }
 
 // ---- damage ----

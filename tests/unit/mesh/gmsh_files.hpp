@@ -11,6 +11,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/gmsh.hpp"
+#include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::mesh {
 
@@ -110,7 +111,7 @@ inline std::string replaced(std::string text, const std::string& old_part, const
 template <int dim>
 std::string error_of_reading(const std::string& file) {
   try {
-    read_gmsh<dim>(file);
+    read_mesh<dim>(file);
   } catch (const base::UserError& error) {
     return error.what();
   }

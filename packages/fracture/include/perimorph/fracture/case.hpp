@@ -57,6 +57,7 @@ struct Case {
   int dimension;
 
   std::string mesh_file;  ///< resolved against directory
+  double mesh_scale;      ///< factor on its coordinates [-]
 
   double youngs_modulus, poissons_ratio;
   ElasticModel elastic_model;

@@ -27,7 +27,18 @@ template <int dim>
 Problem<dim> make_problem(const Case& input);
 
 /// Reads the case's mesh on rank 0 (a .geo file is meshed by gmsh first, and the mesh kept in the folder), opens it
-/// along the pre-cracks, checks the case's groups against it and distributes it. Collective.
+/// along the pre-cracks and checks the case's groups and supports against it. The mesh is whole on rank 0, empty on
+/// others. Collective.
+/// @throws UserError, on all ranks.
+template <int dim>
+mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
+                                const std::string& folder);
+
+/// Each rank's part of it, with a halo as the problem needs it. Collective.
+template <int dim>
+mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem);
+
+/// Both in one. Collective.
 /// @throws UserError, on all ranks.
 template <int dim>
 mesh::Mesh<dim> load_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,

@@ -7,12 +7,13 @@
 
 namespace perimorph::mesh {
 
-/// A place in the text of a gmsh file, which hands out the numbers and lines that follow it. Every error names the file
+/// A place in the text of a mesh file, which hands out the numbers and lines that follow it. Every error names the file
 /// and the line (the byte in binary data).
-class GmshCursor {
+class FileCursor {
  public:
+  /// @param wanted what the file should be, "a gmsh mesh"
   /// @throws base::UserError if the file cannot be read or is empty.
-  explicit GmshCursor(const std::string& file);
+  FileCursor(const std::string& file, const std::string& wanted);
 
   /// From here on numbers are binary, in this machine's byte order.
   void set_binary() { binary_ = true; }
@@ -21,8 +22,14 @@ class GmshCursor {
   /// Skips white space, and tells whether nothing follows.
   bool at_end();
 
+  /// Nothing follows, not even white space.
+  bool at_end_of_text() const { return remaining() == 0; }
+
   /// The rest of the current line, without white space at its ends.
   std::string line();
+
+  /// The rest of the current line as it is, for columns of fixed width.
+  std::string raw_line();
 
   /// Skips white space and these very words.
   void expect(const std::string& words);
@@ -70,6 +77,9 @@ class GmshCursor {
   std::size_t position_ = 0;
   bool binary_ = false;
 };
+
+/// @throws base::UserError unless the file is a regular one (a pipe could wait for ever) and is not empty.
+void require_regular_file(const std::string& file, const std::string& wanted);
 
 /// The printable beginning of a text, for error messages.
 std::string excerpt(std::string_view text);

@@ -1,12 +1,12 @@
-#include "perimorph/mesh/gmsh.hpp"
+#include "mesh_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
 
-#include "gmsh_file.hpp"
 #include "orientation.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
@@ -19,24 +19,27 @@ namespace {
 constexpr double smallest_allowed_volume = 1e-10;  // at a corner, relative to its edges
 constexpr double flatness = 1e-10;                 // of z, relative to the body's size
 constexpr std::size_t most_listed = 5;             // items shown in an error message
+constexpr std::size_t longest_name = 200;
+constexpr double largest_coordinate = 1e100;  // so that squares and volumes are finite numbers, too
 
-ElementType element_type(const GmshKind& kind) {
-  static const std::map<int, ElementType> types = {
-      {2, ElementType::tri3}, {3, ElementType::quad4}, {4, ElementType::tet4}, {5, ElementType::hex8}};
-  return types.at(kind.number);
+ElementType element_type(Shape shape) {
+  static const std::map<Shape, ElementType> types = {{Shape::triangle, ElementType::tri3},
+                                                     {Shape::quadrangle, ElementType::quad4},
+                                                     {Shape::tetrahedron, ElementType::tet4},
+                                                     {Shape::hexahedron, ElementType::hex8}};
+  return types.at(shape);
 }
 
-/// What gmsh calls an entity of a dimension.
+/// What something of a dimension is called.
 const char* entity_name(int dimension) {
   static constexpr std::array<const char*, 4> names = {"point", "curve", "surface", "volume"};
   return names.at(static_cast<std::size_t>(dimension));
 }
 
-/// Turns what a file says into a mesh, and checks it on the way.
 template <int dim>
 class MeshBuilder {
  public:
-  MeshBuilder(const std::string& file, const GmshFile& gmsh) : file_(file), gmsh_(gmsh) {}
+  MeshBuilder(const MeshFile& file, double scale) : file_(file), scale_(scale) {}
 
   Mesh<dim> build() {
     check_dimensions();
@@ -46,50 +49,59 @@ class MeshBuilder {
     check_every_node_is_used();
     check_orientation();
     check_sides();
+    find_boundary(mesh_);
     add_sets();
     give_to_rank_0();
-    find_boundary(mesh_);
     return std::move(mesh_);
   }
 
  private:
   template <class... Arguments>
   [[noreturn]] void fail(fmt::format_string<Arguments...> what, Arguments&&... arguments) const {
-    throw base::UserError(file_ + ": " + fmt::format(what, std::forward<Arguments>(arguments)...));
+    throw base::UserError(file_.name + ": " + fmt::format(what, std::forward<Arguments>(arguments)...));
   }
 
-  const GmshKind& kind_of(std::size_t element) const { return gmsh_kind(gmsh_.element_kinds[element]); }
+  int dimension_of(std::size_t element) const { return dimension(file_.shapes[element]); }
   const std::vector<int>& groups_of(std::size_t element) const {
-    return gmsh_.group_lists[gmsh_.element_groups[element]];
+    return file_.group_lists[file_.element_groups[element]];
   }
 
   std::string group_name(const GroupKey& group) const {
-    const auto found = gmsh_.group_names.find(group);
-    if (found != gmsh_.group_names.end()) return found->second;
-    return fmt::format("{}_{}", entity_name(group.first), group.second);
+    const std::string& name = file_.group_names.at(group);
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (name.empty() || name.size() > longest_name || std::any_of(name.begin(), name.end(), is_control)) {
+      fail("{} {} has a name of {} characters; allowed are readable names of at most {}", entity_name(group.first),
+           group.second, name.size(), longest_name);
+    }
+    return name;
   }
 
   // ---- nodes ----
 
   void add_nodes() {
-    if (std::max(gmsh_.node_tags.size(), gmsh_.element_nodes.size()) > std::numeric_limits<int>::max()) {
+    if (std::max(file_.node_tags.size(), file_.element_nodes.size()) > std::numeric_limits<int>::max()) {
       fail("more than {} nodes or corners of elements", std::numeric_limits<int>::max());
     }
     check_flat();
-    node_of_tag_.reserve(gmsh_.node_tags.size());
-    for (std::size_t n = 0; n < gmsh_.node_tags.size(); ++n) {
-      if (!node_of_tag_.emplace(gmsh_.node_tags[n], static_cast<int>(n)).second) {
-        fail("two nodes have the number {}", gmsh_.node_tags[n]);
+    node_of_tag_.reserve(file_.node_tags.size());
+    for (std::size_t n = 0; n < file_.node_tags.size(); ++n) {
+      if (!node_of_tag_.emplace(file_.node_tags[n], static_cast<int>(n)).second) {
+        fail("two nodes have the number {}", file_.node_tags[n]);
       }
-      mesh_.coordinates.push_back(Eigen::Map<const Point<dim>>(gmsh_.coordinates[n].data()));
+      const Point<dim> scaled = scale_ * Eigen::Map<const Point<dim>>(file_.coordinates[n].data());
+      if (!(scaled.cwiseAbs().maxCoeff() < largest_coordinate)) {
+        fail("node {} has a coordinate of {} after scaling by {}; allowed are absolute values < {}", file_.node_tags[n],
+             scaled.cwiseAbs().maxCoeff(), scale_, largest_coordinate);
+      }
+      mesh_.coordinates.push_back(scaled);
     }
   }
 
   /// The coordinates that a mesh of this dimension leaves out are all equal.
   void check_flat() const {
-    if (gmsh_.coordinates.empty()) return;
-    Eigen::Array3d lowest = Eigen::Map<const Eigen::Array3d>(gmsh_.coordinates.front().data()), highest = lowest;
-    for (const auto& point : gmsh_.coordinates) {
+    if (file_.coordinates.empty()) return;
+    Eigen::Array3d lowest = Eigen::Map<const Eigen::Array3d>(file_.coordinates.front().data()), highest = lowest;
+    for (const auto& point : file_.coordinates) {
       lowest = lowest.min(Eigen::Map<const Eigen::Array3d>(point.data()));
       highest = highest.max(Eigen::Map<const Eigen::Array3d>(point.data()));
     }
@@ -103,15 +115,15 @@ class MeshBuilder {
   int node_of(std::size_t element, std::int64_t tag) const {
     const auto found = node_of_tag_.find(tag);
     if (found == node_of_tag_.end()) {
-      fail("element {} has node {}, which the file does not list", gmsh_.element_tags[element], tag);
+      fail("element {} has node {}, which the file does not list", file_.element_tags[element], tag);
     }
     return found->second;
   }
 
   std::vector<int> nodes_of(std::size_t element) const {
     std::vector<int> nodes;
-    for (std::size_t i = gmsh_.first_node[element]; i < gmsh_.first_node[element + 1]; ++i) {
-      nodes.push_back(node_of(element, gmsh_.element_nodes[i]));
+    for (std::size_t i = file_.first_node[element]; i < file_.first_node[element + 1]; ++i) {
+      nodes.push_back(node_of(element, file_.element_nodes[i]));
     }
     return nodes;
   }
@@ -120,26 +132,23 @@ class MeshBuilder {
 
   void check_dimensions() const {
     int highest = -1;
-    for (std::size_t e = 0; e < gmsh_.n_elements(); ++e) {
-      highest = std::max(highest, kind_of(e).dimension);
-      if (kind_of(e).dimension > dim && !groups_of(e).empty()) {
-        fail("element {} is of dimension {}, but the case has dimension {}", gmsh_.element_tags[e],
-             kind_of(e).dimension, dim);
+    for (std::size_t e = 0; e < file_.n_elements(); ++e) {
+      highest = std::max(highest, dimension_of(e));
+      if (dimension_of(e) > dim && !groups_of(e).empty()) {
+        fail("element {} is of dimension {}, but the case has dimension {}", file_.element_tags[e], dimension_of(e),
+             dim);
       }
     }
     if (highest < 0) fail("the mesh has no elements");
     if (highest < dim) {
-      fail(
-          "the mesh has no elements of dimension {}, its highest is {}: mesh it with gmsh -{}, and put what is to be "
-          "computed into a physical {}",
-          dim, highest, dim, entity_name(dim));
+      fail("the mesh has no elements of dimension {}, its highest is {}: {}", dim, highest, file_.advice.no_elements);
     }
   }
 
   /// Every group of the mesh's dimension becomes a block; without any, all is one block "body".
   void name_blocks() {
-    for (std::size_t e = 0; e < gmsh_.n_elements(); ++e) {
-      if (kind_of(e).dimension == dim) {
+    for (std::size_t e = 0; e < file_.n_elements(); ++e) {
+      if (dimension_of(e) == dim) {
         for (const int group : groups_of(e)) block_of_group_[group] = 0;
       }
     }
@@ -154,21 +163,21 @@ class MeshBuilder {
     std::string name = group_name(group);
     const auto [entry, is_new] = used.emplace(name, group);
     if (!is_new && entry->second != group) {
-      fail("two physical groups are named \"{}\": {} {} and {} {}; give each its own name", name,
+      fail("two groups are named \"{}\": {} {} and {} {}; give each its own name", name,
            entity_name(entry->second.first), entry->second.second, entity_name(group.first), group.second);
     }
     return name;
   }
 
   void add_elements() {
-    for (std::size_t e = 0; e < gmsh_.n_elements(); ++e) {
-      if (kind_of(e).dimension != dim) continue;
+    for (std::size_t e = 0; e < file_.n_elements(); ++e) {
+      if (dimension_of(e) != dim) continue;
       const std::vector<int> nodes = nodes_of(e);
-      mesh_.types.push_back(element_type(kind_of(e)));
+      mesh_.types.push_back(element_type(file_.shapes[e]));
       mesh_.blocks.push_back(block_of(e));
       mesh_.corners.insert(mesh_.corners.end(), nodes.begin(), nodes.end());
       mesh_.first_corner.push_back(static_cast<int>(mesh_.corners.size()));
-      gmsh_tags_.push_back(gmsh_.element_tags[e]);
+      file_tags_.push_back(file_.element_tags[e]);
     }
   }
 
@@ -176,14 +185,14 @@ class MeshBuilder {
     const std::vector<int>& groups = groups_of(element);
     if (groups.size() == 1) return block_of_group_.at(groups[0]);
     if (groups.size() > 1) {
-      fail("element {} is in two physical groups, \"{}\" and \"{}\": each element must be in exactly one",
-           gmsh_.element_tags[element], group_name({dim, groups[0]}), group_name({dim, groups[1]}));
+      fail("element {} is in two groups, \"{}\" and \"{}\": each element must be in exactly one",
+           file_.element_tags[element], group_name({dim, groups[0]}), group_name({dim, groups[1]}));
     }
     if (!block_of_group_.empty()) {
       fail(
-          "element {} is in no physical group, but others are (blocks {}): each element must be in exactly one, or all "
+          "element {} is in no group, but others are (blocks {}): each element must be in exactly one, or all "
           "in none",
-          gmsh_.element_tags[element], base::quoted_list(mesh_.block_names));
+          file_.element_tags[element], base::quoted_list(mesh_.block_names));
     }
     return 0;
   }
@@ -195,16 +204,13 @@ class MeshBuilder {
     for (const int node : mesh_.corners) used[node] = 1;
     std::vector<std::int64_t> unused;
     for (std::size_t n = 0; n < used.size(); ++n) {
-      if (!used[n]) unused.push_back(gmsh_.node_tags[n]);
+      if (!used[n]) unused.push_back(file_.node_tags[n]);
     }
     if (unused.empty()) return;
     const std::size_t n_unused = unused.size();
     unused.resize(std::min(n_unused, most_listed));
-    fail(
-        "{} node(s) belong to no {}D element: {}{}. Take points that only help to draw (such as the centre of a "
-        "circle) "
-        "out of the physical groups, and put all that is to be computed into a physical {}",
-        n_unused, dim, fmt::join(unused, ", "), n_unused > most_listed ? ", ..." : "", entity_name(dim));
+    fail("{} node(s) belong to no {}D element: {}{}. {}", n_unused, dim, fmt::join(unused, ", "),
+         n_unused > most_listed ? ", ..." : "", file_.advice.unused_nodes);
   }
 
   void check_orientation() const {
@@ -220,16 +226,12 @@ class MeshBuilder {
     }
     if (n_wrong == 0) return;
     if (n_wrong == mesh_.n_elements()) {
-      fail(
-          "all {} elements are inverted (the first is element {}): the orientation of the surface is reversed. In the "
-          ".geo file write the curve loop the other way round, or add  ReverseMesh Surface{{...}};",
-          n_wrong, gmsh_tags_[first_wrong]);
+      fail("all {} elements are inverted (the first is element {}). {}", n_wrong, file_tags_[first_wrong],
+           file_.advice.reversed);
     }
-    fail(
-        "element {} is {} ({} of {} elements are inverted or degenerate). If these are all of one surface, its "
-        "orientation is reversed: write its curve loop the other way round, or add  ReverseMesh Surface{{...}};",
-        gmsh_tags_[first_wrong], volume < -smallest_allowed_volume ? "inverted" : "degenerate", n_wrong,
-        mesh_.n_elements());
+    fail("element {} is {} ({} of {} elements are inverted or degenerate). {}", file_tags_[first_wrong],
+         volume < -smallest_allowed_volume ? "inverted" : "degenerate", n_wrong, mesh_.n_elements(),
+         file_.advice.reversed);
   }
 
   /// A side has two elements, which see it from opposite sides; anything else is an overlap.
@@ -240,8 +242,8 @@ class MeshBuilder {
       const int first = sides_[i].side.element, second = sides_[i + 1].side.element;
       if (same_nodes(first, second)) fail_twice(first, second);
       if (i + 2 < sides_.size() && sides_[i].key == sides_[i + 2].key) {
-        fail("elements {}, {} and {} share one side: they overlap", gmsh_tags_[first], gmsh_tags_[second],
-             gmsh_tags_[sides_[i + 2].side.element]);
+        fail("elements {}, {} and {} share one side: they overlap", file_tags_[first], file_tags_[second],
+             file_tags_[sides_[i + 2].side.element]);
       }
     }
   }
@@ -254,22 +256,23 @@ class MeshBuilder {
   /// MSH 2.2 repeats an element for each of its groups.
   [[noreturn]] void fail_twice(int first, int second) const {
     const std::string &a = mesh_.block_names[mesh_.blocks[first]], &b = mesh_.block_names[mesh_.blocks[second]];
-    if (a == b) fail("elements {} and {} have the same nodes", gmsh_tags_[first], gmsh_tags_[second]);
+    if (a == b) fail("elements {} and {} have the same nodes", file_tags_[first], file_tags_[second]);
     fail(
-        "element {} is in two physical groups, \"{}\" and \"{}\" (there as element {}): each element must be in "
+        "element {} is in two groups, \"{}\" and \"{}\" (there as element {}): each element must be in "
         "exactly "
         "one",
-        gmsh_tags_[first], a, b, gmsh_tags_[second]);
+        file_tags_[first], a, b, file_tags_[second]);
   }
 
   // ---- node sets and side sets ----
 
   void add_sets() {
-    for (std::size_t e = 0; e < gmsh_.n_elements(); ++e) {
-      if (kind_of(e).dimension >= dim) continue;
-      for (const int group : groups_of(e)) add_to_sets(e, {kind_of(e).dimension, group});
+    for (std::size_t e = 0; e < file_.n_elements(); ++e) {
+      if (dimension_of(e) >= dim) continue;
+      for (const int group : groups_of(e)) add_to_sets(e, {dimension_of(e), group});
     }
     for (auto& [name, nodes] : mesh_.node_sets) sort_unique(nodes, std::less<>());
+    if (file_.sides_follow_from_node_sets) add_sides_of_node_sets();
     for (auto& [name, sides_of_set] : mesh_.side_sets) sort_unique(sides_of_set, std::less<>());
   }
 
@@ -286,10 +289,24 @@ class MeshBuilder {
     const auto found = std::lower_bound(sides_.begin(), sides_.end(), key,
                                         [](const KeyedSide& side, const SideKey& k) { return side.key < k; });
     if (found == sides_.end() || found->key != key) {
-      fail("element {} of the physical group \"{}\" is no side of any {}D element", gmsh_.element_tags[element], set,
-           dim);
+      fail("element {} of the group \"{}\" is no side of any {}D element", file_.element_tags[element], set, dim);
     }
     return found->side;
+  }
+
+  /// Requires node sets in ascending order.
+  void add_sides_of_node_sets() {
+    for (const auto& [name, nodes] : mesh_.node_sets) {
+      const auto is_in_set = [&members = nodes](int node) {
+        return std::binary_search(members.begin(), members.end(), node);
+      };
+      for (const Side& side : mesh_.boundary) {
+        const std::vector<int> corners_of_side = side_nodes(mesh_, side);
+        if (std::all_of(corners_of_side.begin(), corners_of_side.end(), is_in_set)) {
+          mesh_.side_sets[name].push_back(side);
+        }
+      }
+    }
   }
 
   template <class T, class Less>
@@ -312,10 +329,10 @@ class MeshBuilder {
     std::iota(mesh_.element_ids.begin(), mesh_.element_ids.end(), GlobalId{0});
   }
 
-  const std::string& file_;
-  const GmshFile& gmsh_;
+  const MeshFile& file_;
+  double scale_;
   Mesh<dim> mesh_;
-  std::vector<std::int64_t> gmsh_tags_;  // of the mesh's elements
+  std::vector<std::int64_t> file_tags_;  // of the mesh's elements
   std::unordered_map<std::int64_t, int> node_of_tag_;
   std::map<int, int> block_of_group_;
   std::map<std::string, GroupKey> block_names_, set_names_;
@@ -325,12 +342,11 @@ class MeshBuilder {
 }  // namespace
 
 template <int dim>
-Mesh<dim> read_gmsh(const std::string& file) {
-  const GmshFile contents = read_gmsh_file(file);
-  return MeshBuilder<dim>(file, contents).build();
+Mesh<dim> build_mesh(const MeshFile& file, double scale) {
+  return MeshBuilder<dim>(file, scale).build();
 }
 
-template Mesh<2> read_gmsh(const std::string&);
-template Mesh<3> read_gmsh(const std::string&);
+template Mesh<2> build_mesh(const MeshFile&, double);
+template Mesh<3> build_mesh(const MeshFile&, double);
 
 }  // namespace perimorph::mesh

@@ -1,0 +1,235 @@
+#include "mesh_checks.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "mistakes.hpp"
+#include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
+
+namespace perimorph::fracture {
+
+namespace {
+
+using base::Point;
+
+constexpr double negligible = 1e-6;  // motion of the supports, relative to that of the part
+constexpr int most_listed = 10;      // parts in a message
+
+const std::string displacements_path = "/Boundary Conditions/Displacements";
+
+/// The rigid motions of one part that its supports leave free.
+template <int dim>
+class RigidMotions {
+ public:
+  static constexpr int n_rotations = dim == 2 ? 1 : 3, n_motions = dim + n_rotations;
+  using Row = Eigen::Matrix<double, 1, n_motions>;
+
+  RigidMotions(const Point<dim>& center, double size) : center_(center), size_(size) {}
+
+  /// A support: the component of each rigid motion at the point, rotations by angles of 1 / size.
+  void hold(const Point<dim>& point, int component) {
+    Row row = Row::Zero();
+    row[component] = 1.;
+    const Point<dim> arm = (point - center_) / size_;
+    if constexpr (dim == 2) {
+      row[dim] = component == 0 ? -arm[1] : arm[0];
+    } else {
+      const int next = (component + 1) % 3, last = (component + 2) % 3;
+      row[dim + next] = arm[last];
+      row[dim + last] = -arm[next];
+    }
+    sum_ += row.transpose() * row;
+    ++n_held_;
+  }
+
+  /// What is free, in words ("translation in x, rotation"), or "".
+  std::string free() const {
+    std::vector<std::string> names;
+    for (int motion = 0; motion < n_motions; ++motion) {
+      if (sum_(motion, motion) > threshold()) continue;
+      names.push_back(motion < dim ? fmt::format("translation in {}", "xyz"[motion])
+                      : dim == 2   ? "rotation"
+                                   : fmt::format("rotation about {}", "xyz"[motion - dim]));
+    }
+    const int n_others = n_motions - rank() - static_cast<int>(names.size());
+    if (n_others > 0) names.emplace_back(n_others == 1 ? "rotation" : fmt::format("{} rotations", n_others));
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+ private:
+  double threshold() const { return negligible * negligible * static_cast<double>(n_held_); }
+
+  int rank() const {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n_motions, n_motions>> solver(sum_);
+    return static_cast<int>((solver.eigenvalues().array() > threshold()).count());
+  }
+
+  Point<dim> center_;
+  double size_;
+  Eigen::Matrix<double, n_motions, n_motions> sum_ = Eigen::Matrix<double, n_motions, n_motions>::Zero();
+  long n_held_ = 0;
+};
+
+/// The part of the body that each node is in, from 0: elements that share a node are of one part.
+template <int dim>
+std::vector<int> part_of_nodes(const mesh::Mesh<dim>& mesh) {
+  std::vector<int> lower(mesh.n_nodes());  // a node of the same part, itself for the lowest
+  std::iota(lower.begin(), lower.end(), 0);
+  const auto lowest = [&](int node) {
+    while (lower[node] != node) node = lower[node] = lower[lower[node]];
+    return node;
+  };
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    for (int c = 1; c < mesh.n_corners(e); ++c) {
+      const int a = lowest(mesh.corners_of(e)[c - 1]), b = lowest(mesh.corners_of(e)[c]);
+      lower[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<int> part(lower.size());
+  int n_parts = 0;
+  for (int node = 0; node < mesh.n_nodes(); ++node) part[node] = lower[node] == node ? n_parts++ : part[lowest(node)];
+  return part;
+}
+
+/// One connected part of the body.
+template <int dim>
+struct Part {
+  int n_elements = 0;
+  Eigen::AlignedBox<double, dim> box;
+};
+
+template <int dim>
+class Checks {
+ public:
+  Checks(const Case& input, const mesh::Mesh<dim>& whole) : input_(input), mesh_(whole) {}
+
+  void run() {
+    check_groups();
+    if (mistakes_.empty()) {  // the supports are known only then
+      check_contradictions();
+      check_free_motions();
+    }
+    if (!mistakes_.empty()) throw base::UserError(mistakes_.substr(1));
+  }
+
+ private:
+  void add(const std::string& path, const std::string& what) {
+    mistakes_ += fmt::format("\n{}: {}: {}", input_.file, path, what);
+  }
+
+  // ---- groups ----
+
+  void check_groups() {
+    for (const auto& d : input_.displacements) {
+      check_group(displacements_path + "/" + d.name + "/Group", d.group, mesh_.node_sets, "nodes");
+    }
+    for (const auto& t : input_.tractions) {
+      check_group("/Boundary Conditions/Tractions/" + t.name + "/Group", t.group, mesh_.side_sets, "sides");
+    }
+    for (const auto& group : input_.reactions) {
+      const bool is_checked = std::any_of(input_.displacements.begin(), input_.displacements.end(),
+                                          [&](const auto& d) { return d.group == group; });
+      if (!is_checked) check_group("/Output/Reactions", group, mesh_.node_sets, "nodes");
+    }
+  }
+
+  template <class Groups>
+  void check_group(const std::string& path, const std::string& group, const Groups& groups, const char* members) {
+    if (groups.count(group) != 0) return;
+    std::vector<std::string> names;
+    for (const auto& entry : groups) names.push_back(entry.first);
+    add(path, fmt::format("the mesh {} has no group of {} called {}; it has {}{}{}", input_.mesh_file, members,
+                          in_quotes(group), names.empty() ? "none" : base::quoted_list(names), what_it_is(group),
+                          base::did_you_mean(group, names)));
+  }
+
+  /// Of a group that exists, but has members of another dimension.
+  std::string what_it_is(const std::string& group) const {
+    const auto& blocks = mesh_.block_names;
+    if (std::find(blocks.begin(), blocks.end(), group) != blocks.end()) {
+      return fmt::format(" ({} is a group of elements)", in_quotes(group));
+    }
+    return mesh_.node_sets.count(group) != 0 ? fmt::format(" ({} has nodes only)", in_quotes(group)) : "";
+  }
+
+  // ---- contradictions ----
+
+  void check_contradictions() {
+    const auto& conditions = input_.displacements;
+    std::vector<int> set_by(static_cast<std::size_t>(mesh_.n_nodes()) * dim, -1);
+    std::map<std::pair<int, int>, std::vector<int>> nodes_of_pair;
+    for (int i = 0; i < static_cast<int>(conditions.size()); ++i) {
+      for (const int node : mesh_.node_sets.at(conditions[i].group)) {
+        int& first = set_by[static_cast<std::size_t>(node) * dim + conditions[i].component];
+        if (first < 0) first = i;
+        const auto &a = conditions[first], &b = conditions[i];
+        if (a.rate != b.rate || a.constant != b.constant) nodes_of_pair[{first, i}].push_back(node);
+      }
+    }
+    for (const auto& [pair, nodes] : nodes_of_pair) {
+      const auto &a = conditions[pair.first], &b = conditions[pair.second];
+      add(displacements_path + "/" + b.name,
+          fmt::format("prescribes another {} displacement than {}/{} on {} node{} that both groups have, the first at "
+                      "({:.6g}); allowed is one value per node",
+                      "xyz"[b.component], displacements_path, a.name, nodes.size(), nodes.size() == 1 ? "" : "s",
+                      fmt::join(mesh_.coordinates[nodes[0]].begin(), mesh_.coordinates[nodes[0]].end(), ", ")));
+    }
+  }
+
+  // ---- parts of the body that are not held ----
+
+  void check_free_motions() {
+    const std::vector<int> part = part_of_nodes(mesh_);
+    const std::vector<Part<dim>> parts = describe_parts(part);
+    std::vector<RigidMotions<dim>> motions;
+    for (const auto& one : parts) motions.emplace_back(one.box.center(), one.box.diagonal().norm());
+    for (const auto& d : input_.displacements) {
+      for (const int node : mesh_.node_sets.at(d.group)) {
+        motions[part[node]].hold(mesh_.coordinates[node], d.component);
+      }
+    }
+    int n_free = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const std::string names = motions[p].free();
+      if (names.empty() || ++n_free > most_listed) continue;
+      add(displacements_path,
+          fmt::format("{} can move as a whole: {}; prescribe displacements against it", name_of(parts, p), names));
+    }
+    if (n_free > most_listed) add(displacements_path, fmt::format("and {} other parts", n_free - most_listed));
+  }
+
+  std::vector<Part<dim>> describe_parts(const std::vector<int>& part) const {
+    std::vector<Part<dim>> parts(1 + static_cast<std::size_t>(*std::max_element(part.begin(), part.end())));
+    for (int e = 0; e < mesh_.n_elements(); ++e) ++parts[part[mesh_.corners_of(e)[0]]].n_elements;
+    for (int node = 0; node < mesh_.n_nodes(); ++node) parts[part[node]].box.extend(mesh_.coordinates[node]);
+    return parts;
+  }
+
+  static std::string name_of(const std::vector<Part<dim>>& parts, std::size_t p) {
+    if (parts.size() == 1) return "the body";
+    const Point<dim> low = parts[p].box.min(), high = parts[p].box.max();
+    return fmt::format("part {} of {} of the body ({} element{}, from ({:.6g}) to ({:.6g}))", p + 1, parts.size(),
+                       parts[p].n_elements, parts[p].n_elements == 1 ? "" : "s",
+                       fmt::join(low.begin(), low.end(), ", "), fmt::join(high.begin(), high.end(), ", "));
+  }
+
+  const Case& input_;
+  const mesh::Mesh<dim>& mesh_;
+  std::string mistakes_;
+};
+
+}  // namespace
+
+template <int dim>
+void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole) {
+  Checks<dim>(input, whole).run();
+}
+
+template void check_against_mesh(const Case&, const mesh::Mesh<2>&);
+template void check_against_mesh(const Case&, const mesh::Mesh<3>&);
+
+}  // namespace perimorph::fracture

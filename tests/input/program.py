@@ -1,0 +1,250 @@
+"""What the program itself does with bad input, on 1, 2 and 4 ranks: status 2, a message that says where and what, no
+hang, no trace of a crash, and little memory.
+
+    program.py PERIMORPH MPIEXEC
+"""
+
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PERIMORPH, MPIEXEC = sys.argv[1:3]
+del sys.argv[1:3]
+
+MEMORY = 8 << 30  # of address space, for each rank: Open MPI and libraries take half a gigabyte of it
+
+# Two unit squares beside each other, and one apart from them; "apart" is its lower edge.
+MSH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+4
+0 1 "corner"
+1 2 "left"
+1 3 "apart"
+2 4 "plate"
+$EndPhysicalNames
+$Nodes
+10
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 1 1 0
+6 2 1 0
+7 5 0 0
+8 6 0 0
+9 6 1 0
+10 5 1 0
+$EndNodes
+$Elements
+6
+1 15 2 1 1 1
+2 1 2 2 1 1 4
+3 1 2 3 1 7 8
+4 3 2 4 1 1 2 5 4
+5 3 2 4 1 2 3 6 5
+6 3 2 4 1 7 8 9 10
+$EndElements
+"""
+
+CDB = """/PREP7
+ET,1,182
+NBLOCK,6,SOLID,4,4
+(3i9,6e21.13e3)
+        1        0        0
+        2        0        0 1.0000000000000E+000
+        3        0        0 1.0000000000000E+000 1.0000000000000E+000
+        4        0        0 0.0000000000000E+000 1.0000000000000E+000
+N,R5.3,LOC,       -1,
+EBLOCK,19,SOLID,1,1
+(19i9)
+        1        1        1        1        0        0        0        0        4        0        1        1        2        3        4
+       -1
+CMBLOCK,left,NODE,2
+(8i10)
+         1         4
+FINISH
+"""
+
+
+def displacement(name, group, component, rate=0.0):
+    return f"""<ParameterList name="{name}">
+      <Parameter name="Group" type="string" value="{group}"/>
+      <Parameter name="Component" type="string" value="{component}"/>
+      <Parameter name="Rate" type="double" value="{rate}"/>
+    </ParameterList>
+    """
+
+
+HELD = displacement("x", "left", "x") + displacement("y", "left", "y")
+APART_HELD = displacement("apart x", "apart", "x") + displacement("apart y", "apart", "y")
+
+
+def case(displacements=HELD + APART_HELD, mesh="plate.msh", tractions=""):
+    return f"""<ParameterList name="plate">
+  <ParameterList name="Mesh"><Parameter name="File" type="string" value="{mesh}"/></ParameterList>
+  <ParameterList name="Material">
+    <Parameter name="Young's Modulus" type="double" value="1000"/>
+    <Parameter name="Poisson's Ratio" type="double" value="0.3333"/>
+    <Parameter name="Elastic Model" type="string" value="Plane Stress"/>
+  </ParameterList>
+  <ParameterList name="Peridynamics">
+    <Parameter name="Horizon" type="double" value="2"/>
+    <Parameter name="Characteristic Length" type="double" value="0.2"/>
+  </ParameterList>
+  <ParameterList name="Boundary Conditions">
+    <ParameterList name="Displacements">{displacements}</ParameterList>
+    <ParameterList name="Tractions">{tractions}</ParameterList>
+  </ParameterList>
+  <ParameterList name="Loading"><Parameter name="Increments" type="int" value="1"/></ParameterList>
+</ParameterList>
+"""
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.case = self.folder / "plate.xml"
+        self.write("plate.msh", MSH)
+        self.write("plate.xml", case())
+
+    def write(self, name, content):
+        (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+
+    def perimorph(self, *arguments, ranks=1):
+        command = [MPIEXEC, "-n", str(ranks), PERIMORPH, *map(str, arguments)]
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        return subprocess.run(command, capture_output=True, text=True, timeout=60, preexec_fn=limit, cwd=self.folder)
+
+    def assert_refused(self, *pieces, command="check", options=(), ranks=(2,)):
+        for n in ranks:
+            with self.subTest(ranks=n):
+                run = self.perimorph(command, self.case, *options, ranks=n)
+                self.assertEqual(run.returncode, 2, run.stderr)
+                for piece in pieces:
+                    self.assertEqual(run.stderr.count(piece), 1, run.stderr)
+                self.assertNotIn("bug", run.stderr)
+
+
+class Sound(Program):
+    def test_the_case_that_the_others_spoil_is_sound(self):
+        for mesh, content in [("plate.msh", MSH), ("square.cdb", CDB)]:
+            self.write(mesh, content)
+            self.write("plate.xml", case(mesh=mesh) if mesh == "plate.msh" else case(HELD, mesh))
+            run = self.perimorph("check", self.case)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn('group          "left": 2 nodes, 1 side\n', run.stdout)
+
+    def test_the_scale_reaches_the_report(self):
+        run = self.perimorph("check", self.case, "--set", "Mesh/Scale=1000")
+        self.assertIn("(0, 0) to (6000, 1000)", run.stdout)
+
+
+class Meshes(Program):
+    def test_truncated(self):
+        self.write("plate.msh", MSH[: MSH.index("8 6 0 0")])
+        self.assert_refused("plate.msh:", "truncated", ranks=[1, 2, 4])
+
+    def test_of_another_version(self):
+        self.write("plate.msh", MSH.replace("2.2 0 8", "4.0 0 8"))
+        self.assert_refused('plate.msh:2: MSH version "4.0"; allowed are 4.1 and 2.2')
+
+    def test_empty_or_garbage(self):
+        for name in ["plate.msh", "plate.e", "plate.exo", "plate.cdb"]:
+            self.write("plate.xml", case(mesh=name))
+            self.write(name, "")
+            self.assert_refused(f"{name}: the file is empty")
+            self.write(name, bytes(range(256)) * 20)
+            self.assert_refused(name)
+
+    def test_a_folder_a_missing_file_and_a_device(self):
+        (self.folder / "folder.msh").mkdir()
+        (self.folder / "zero.msh").symlink_to("/dev/zero")
+        for name, what in [("folder.msh", "is a folder"), ("none.msh", "No such file"), ("zero.msh", "no regular file")]:
+            self.write("plate.xml", case(mesh=name))
+            self.assert_refused(what.replace("no regular", "is not a regular"))
+
+    def test_huge_counts(self):
+        self.write("plate.msh", MSH.replace("$Nodes\n10", "$Nodes\n1000000000000"))
+        self.assert_refused("a count of 1000000000000, but the rest of the file holds at most")
+        self.write("plate.xml", case(HELD, mesh="square.cdb"))
+        self.write("square.cdb", CDB.replace("NODE,2", "NODE,1999999999"))
+        self.assert_refused("a count of 1999999999, but the rest of the file holds at most")
+
+
+class Conditions(Program):
+    def test_a_part_of_the_body_that_nothing_holds(self):
+        self.write("plate.xml", case(HELD))
+        self.assert_refused(
+            "plate.xml: /Boundary Conditions/Displacements: part 2 of 2 of the body (1 element, from (5, 0) to (6, 1)) can "
+            "move as a whole: translation in x, translation in y, rotation; prescribe displacements against it",
+            ranks=[1, 2, 4],
+        )
+
+    def test_motions_that_the_supports_leave_free(self):
+        for held, free in [
+            (displacement("x", "left", "x"), "translation in y"),
+            (displacement("y", "left", "y"), "translation in x, rotation"),
+            (displacement("x", "corner", "x") + displacement("y", "corner", "y"), "rotation"),
+            ("", "translation in x, translation in y, rotation"),
+        ]:
+            self.write("plate.xml", case(held + APART_HELD))
+            self.assert_refused(f"part 1 of 2 of the body (2 elements, from (0, 0) to (2, 1)) can move as a whole: {free};", ranks=[1])
+
+    def test_contradictory_displacements(self):
+        self.write("plate.xml", case(HELD + APART_HELD + displacement("pull", "corner", "x", 0.1)))
+        self.assert_refused(
+            "/Boundary Conditions/Displacements/pull: prescribes another x displacement than "
+            "/Boundary Conditions/Displacements/x on 1 node that both groups have, the first at (0, 0)",
+            ranks=[1, 4],
+        )
+
+    def test_groups_of_another_dimension(self):
+        traction = '<ParameterList name="t"><Parameter name="Group" type="string" value="corner"/></ParameterList>'
+        self.write("plate.xml", case(HELD + displacement("all", "plate", "x"), tractions=traction))
+        self.assert_refused(
+            'no group of nodes called "plate"; it has "apart", "corner", "left" ("plate" is a group of elements)',
+            'no group of sides called "corner"; it has "apart", "left" ("corner" has nodes only)',
+        )
+
+
+class Folders(Program):
+    """Where results may not go."""
+
+    def refused_output(self, output, *pieces):
+        self.assert_refused(*pieces, command="run", options=["--output", output], ranks=[1, 4])
+
+    def test_a_file_in_the_way(self):
+        self.refused_output("plate.msh", "plate.msh: the output folder cannot be made")
+        self.assertEqual((self.folder / "plate.msh").read_text(), MSH)
+
+    def test_where_nothing_can_be_written(self):
+        self.refused_output("/proc/perimorph", "/proc/perimorph: the output folder cannot be made")
+        self.refused_output("/proc", "cannot be written")
+
+    def test_results_never_replace_the_input(self):
+        self.write("plate.xml", case(HELD, mesh="plate.e"))
+        self.write("plate.e", b"precious")
+        self.refused_output(".", "plate.e: the results would replace the mesh")
+        self.assertEqual((self.folder / "plate.e").read_bytes(), b"precious")
+        self.case = self.folder / "resolved.xml"
+        self.write("resolved.xml", case())
+        self.refused_output(".", "resolved.xml: the results would replace the case")
+        self.assertEqual(self.case.read_text(), case())
+
+    def test_results_stay_in_their_folder(self):
+        for name in ["..xml", "...xml"]:
+            self.case = self.folder / name
+            self.write(name, case())
+            self.assert_refused(f"{name}: its name without .xml names the results", command="run")
+        self.assertFalse((self.folder / "results").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
