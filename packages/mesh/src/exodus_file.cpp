@@ -14,8 +14,8 @@
 #include <optional>
 #include <set>
 
+#include "classic_header.hpp"
 #include "file_cursor.hpp"
-#include "netcdf_header.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/element_type.hpp"
 

@@ -1,6 +1,6 @@
 // "The NetCDF Classic Format Specification", with its names: header = magic numrecs dim_list gatt_list var_list.
 
-#include "netcdf_header.hpp"
+#include "classic_header.hpp"
 
 #include <cstdint>
 #include <fstream>
