@@ -170,8 +170,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Micromodulus", "<Parameter " + horizon,
                 R"xml(<Parameter name="Micromodulus" type="string" value="Constant"/><Parameter )xml" + horizon,
                 R"xml(/Peridynamics/Micromodulus: found "Constant"; allowed is "Exponential")xml"},
-        Mistake{"Operator", solver, solver + R"xml(<Parameter name="Operator" type="string" value="Matrix-Free"/>)xml",
-                R"xml(/Solver/Operator: found "Matrix-Free"; allowed is "CRS")xml"}),
+        Mistake{"Operator", solver, solver + R"xml(<Parameter name="Operator" type="string" value="Dense"/>)xml",
+                R"xml(/Solver/Operator: found "Dense"; allowed is "CRS")xml"}),
     named);
 
 INSTANTIATE_TEST_SUITE_P(
