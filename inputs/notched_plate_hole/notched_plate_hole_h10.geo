@@ -1,0 +1,3 @@
+// The notch 10 above the bottom.
+h = 10;
+Include "notched_plate_hole.geo";
