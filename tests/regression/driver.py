@@ -193,7 +193,7 @@ class Runs(Driver):
         for part in self.series():
             with netCDF4.Dataset(part) as file:
                 program, version, date, time = text_of(file["qa_records"][0])
-                # Lines of more than 80 characters are split: joined again they are the resolved case.
+                # Lines of more than 79 characters are split: joined again they are the resolved case.
                 case = xml.etree.ElementTree.fromstring("".join(text_of(file["info_records"])))
             self.assertEqual(program, "perimorph")
             self.assertRegex(f"{version} {date} {time}", r"^\d+\.\d+\.\d+ \d{4}-\d\d-\d\d \d\d:\d\d:\d\d$")

@@ -58,14 +58,16 @@ std::vector<int> one_based(const std::vector<int>& indices) {
   return result;
 }
 
-/// Lines of at most MAX_LINE_LENGTH characters; a UTF-8 character is not cut in two.
+/// Lines short enough that the library writes the zero after them too (after a full line it leaves what the disk held);
+/// a UTF-8 character is not cut in two.
 std::vector<std::string> split_lines(const std::vector<std::string>& lines) {
   const auto continues_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  constexpr std::size_t longest = MAX_LINE_LENGTH - 1;
   std::vector<std::string> result;
   for (const auto& line : lines) {
     std::size_t begin = 0;
     do {
-      std::size_t end = std::min<std::size_t>(begin + MAX_LINE_LENGTH, line.size());
+      std::size_t end = std::min(begin + longest, line.size());
       while (end < line.size() && end > begin + 1 && continues_character(line[end])) --end;
       result.push_back(line.substr(begin, end - begin));
       begin = end;

@@ -228,12 +228,12 @@ TEST(ExodusSeries, LongNamesAreKeptUpToTheirLimit) {
 TEST(ExodusSeries, TheCaseIsInTheInfoRecordsWithLongLinesSplitBetweenCharacters) {
   const test::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
-  const std::string a79(79, 'a'), b80(80, 'b');
-  ExodusSeries<2>(first, std::string(100, 't'), plate_names, {"short", "", a79 + "δ", b80 + b80})
+  const std::string a78(78, 'a'), b79(79, 'b');
+  ExodusSeries<2>(first, std::string(100, 't'), plate_names, {"short", "", a78 + "δ", b79 + b79})
       .start(model_of({2, 3, 0}));
 
   const test::ExodusFile file(first);
-  EXPECT_THAT(file.information(), ElementsAre("short", "", a79, "δ", b80, b80));
+  EXPECT_THAT(file.information(), ElementsAre("short", "", a78, "δ", b79, b79));
   EXPECT_EQ(file.program(), "perimorph");
   EXPECT_EQ(file.sizes.title, std::string(80, 't'));
 }
