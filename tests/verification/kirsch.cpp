@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "perimorph/mesh/gmsh.hpp"
+#include "perimorph/mesh/read_mesh.hpp"
 #include "support/fracture_body.hpp"
 
 namespace perimorph::tests {
@@ -52,7 +53,7 @@ mesh::Mesh<2> meshed_plate() {
   const std::string stem = testing::TempDir() + "perimorph_kirsch";
   std::ofstream(stem + ".geo") << plate_with_hole;
   mesh::mesh_geometry(stem + ".geo", stem + ".msh", 2);
-  return mesh::read_gmsh<2>(stem + ".msh");
+  return mesh::read_mesh<2>(stem + ".msh");
 }
 
 /// The plate with a horizon of three elements. No peridynamic zone yet.
