@@ -65,7 +65,7 @@ class BondFamilies : public testing::TestWithParam<Example> {
     ASSERT_EQ(actual.size(), expected.size());
     for (auto a = actual.begin(), e = expected.begin(); a != actual.end(); ++a, ++e) {
       ASSERT_EQ(a->first, e->first);
-      EXPECT_NEAR(a->second, e->second, 1e-7 * e->second);  // a few roundings, exp(-r/l) included  // single precision
+      EXPECT_NEAR(a->second, e->second, 1e-7 * e->second);  // bonds are stored in single precision
     }
   }
 };
