@@ -17,11 +17,14 @@ using namespace perimorph;
 struct Arguments {
   std::string case_file, output;
   std::vector<std::string> overrides;
-  bool quiet = false, no_progress = false;
+  bool quiet = false, no_progress = false, restart = false;
 
   fracture::Talk talk() const {
     if (quiet) return fracture::Talk::quiet;
     return no_progress || isatty(STDOUT_FILENO) == 0 ? fracture::Talk::lines : fracture::Talk::progress;
+  }
+  fracture::Start start() const {
+    return restart ? fracture::Start::from_checkpoint : fracture::Start::at_the_first_increment;
   }
 };
 
@@ -49,6 +52,7 @@ int main(int argc, char** argv) {
   add_case_options(*run, arguments);
   run->add_option("--output", arguments.output, "Folder for the results (default: results/<case>)");
   run->add_flag("--no-progress", arguments.no_progress, "No progress bar, even on a terminal");
+  run->add_flag("--restart", arguments.restart, "Go on after the newest checkpoint in the folder for the results");
   auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what it would cost");
   add_case_options(*check, arguments);
   bool markdown = false;
@@ -77,7 +81,7 @@ int main(int argc, char** argv) {
       fracture::check(comm, input, arguments.talk());
     } else {
       fracture::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output,
-                    arguments.talk());
+                    arguments.talk(), arguments.start());
     }
     return 0;
   } catch (const base::UserError& error) {

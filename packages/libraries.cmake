@@ -25,6 +25,11 @@ find_library(EXODUSII_LIBRARY exoIIv2c)
 if(NOT EXODUSII_INCLUDE_DIR OR NOT EXODUSII_LIBRARY)
   perimorph_missing(Exodus libexodusii-dev)
 endif()
+find_path(HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/openmpi)
+find_library(HDF5_LIBRARY hdf5_openmpi)
+if(NOT HDF5_INCLUDE_DIR OR NOT HDF5_LIBRARY)
+  perimorph_missing("Parallel HDF5" libhdf5-openmpi-dev)
+endif()
 find_library(PTSCOTCH_LIBRARY ptscotch)
 if(NOT PTSCOTCH_LIBRARY)
   perimorph_missing(PT-Scotch libptscotch-dev)
@@ -38,6 +43,10 @@ target_link_libraries(perimorph_trilinos INTERFACE ${Trilinos_LIBRARIES} MPI::MP
 add_library(perimorph_exodus INTERFACE)
 target_include_directories(perimorph_exodus SYSTEM INTERFACE ${EXODUSII_INCLUDE_DIR})
 target_link_libraries(perimorph_exodus INTERFACE ${EXODUSII_LIBRARY} MPI::MPI_CXX)
+
+add_library(perimorph_hdf5 INTERFACE)
+target_include_directories(perimorph_hdf5 SYSTEM INTERFACE ${HDF5_INCLUDE_DIR})
+target_link_libraries(perimorph_hdf5 INTERFACE ${HDF5_LIBRARY} MPI::MPI_CXX)
 
 add_library(perimorph_warnings INTERFACE)
 # Off: GCC 12 reports these inside its own AVX-512 headers (through Eigen) and inside fmt.

@@ -12,14 +12,14 @@ Log silent_log() {
   return std::make_shared<spdlog::logger>("perimorph", std::make_shared<spdlog::sinks::null_sink_st>());
 }
 
-Log make_log(const Comm& comm, bool quiet, const std::string& file) {
+Log make_log(const Comm& comm, bool quiet, const std::string& file, bool append) {
   if (comm.getRank() != 0) return silent_log();
   auto terminal = std::make_shared<spdlog::sinks::stdout_sink_st>();
   terminal->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
   std::vector<spdlog::sink_ptr> sinks = {terminal};
   if (!file.empty()) {
     try {
-      sinks.push_back(std::make_shared<spdlog::sinks::basic_file_sink_st>(file, true));
+      sinks.push_back(std::make_shared<spdlog::sinks::basic_file_sink_st>(file, !append));
     } catch (const spdlog::spdlog_ex& error) {
       throw UserError(fmt::format("{}: the log cannot be written: {}", file, error.what()));
     }

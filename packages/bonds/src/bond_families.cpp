@@ -75,6 +75,17 @@ int BondFamilies<dim>::pair_of(Bond b) const {
 }
 
 template <int dim>
+typename BondFamilies<dim>::Bond BondFamilies<dim>::find(int first, int first_end, int second, int second_end) const {
+  for (const int p : pairs_of_[first]) {
+    if (pairs_[p].first != first || pairs_[p].second != second) continue;
+    for (Bond b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
+      if (this->first_end(b) == first_end && this->second_end(b) == second_end) return b;
+    }
+  }
+  return n_bonds();
+}
+
+template <int dim>
 void BondFamilies<dim>::set_broken(int p, Bond b) {
   const auto [first, second] = pairs_[p];
   const int i = points_.first(first) + first_end(b), j = points_.first(second) + second_end(b);

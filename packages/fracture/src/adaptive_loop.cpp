@@ -15,8 +15,9 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
 }  // namespace
 
 template <int dim>
-void run_adaptive_loop(Body<dim>& body, Results<dim>& results, const LoopLimits& limits) {
-  for (int increment = 1; increment <= limits.increments; ++increment) {
+void run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints,
+                       const LoopLimits& limits) {
+  for (int increment = checkpoints.increment() + 1; increment <= limits.increments; ++increment) {
     body.apply_load(increment);
     int growths = 0, damage_iterations = 0;
     do {
@@ -27,15 +28,17 @@ void run_adaptive_loop(Body<dim>& body, Results<dim>& results, const LoopLimits&
                     "Maximum Damage Iterations");
         body.solve(accuracy);
         results.show_progress(increment, body);
+        checkpoints.heed_signals();
         return body.break_bonds() > 0;
       };
       while (breaks(Accuracy::breaking) || breaks(Accuracy::accepted)) {
       }
     } while (body.flag_damaged_elements() > 0);
     results.accept(increment, body);
+    checkpoints.accept(increment, body, results);
   }
 }
 
-template void run_adaptive_loop<2>(Body<2>&, Results<2>&, const LoopLimits&);
+template void run_adaptive_loop<2>(Body<2>&, Results<2>&, Checkpoints<2>&, const LoopLimits&);
 
 }  // namespace perimorph::fracture

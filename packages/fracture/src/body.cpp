@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/distribute.hpp"
@@ -80,11 +81,7 @@ template <int dim>
 void Body<dim>::update_topology() {
   const bool is_first = dofs_ == nullptr;
   const bool alpha_changed = !pending_zones_.empty() || is_first;
-  if (alpha_changed) {
-    const auto timer = profile_.measure(Phase::search);
-    bonds_.extend(alpha_.add(pending_zones_));
-    pending_zones_.clear();
-  }
+  if (alpha_changed) grow();
   {
     const auto timer = profile_.measure(Phase::adapt);
     if (alpha_changed) classify();
@@ -96,7 +93,15 @@ void Body<dim>::update_topology() {
   }
   assemble();
   forces_are_current_ = false;
+  break_calls_before_topology_ = break_calls_;
   ++counts_.topologies;
+}
+
+template <int dim>
+void Body<dim>::grow() {
+  const auto timer = profile_.measure(Phase::search);
+  bonds_.extend(alpha_.add(pending_zones_));
+  pending_zones_.clear();
 }
 
 template <int dim>
@@ -288,9 +293,9 @@ GlobalId Body<dim>::break_bonds() {
   const auto timer = profile_.measure(Phase::bonds);
   if (std::isinf(problem_.critical_stretch)) return 0;
   const auto broken = bonds_.break_overstretched(at_points_, problem_.critical_stretch, classes_);
-  stiffness_->subtract(broken);
-  if (matrix_) matrix_->subtract(broken);
-  if (short_range_) short_range_->subtract(broken);
+  take_out(broken);
+  ++break_calls_;
+  if (!broken.empty()) broken_by_call_[break_calls_] = broken;
   operators::subtract_bond_forces(model(), broken, at_points_, force_);
   dissipated_ += base::sum(*comm_, operators::bond_energy(model(), broken, at_points_));
   const auto is_counted_here = [&](std::size_t b) {
@@ -303,27 +308,142 @@ GlobalId Body<dim>::break_bonds() {
 }
 
 template <int dim>
+void Body<dim>::take_out(const std::vector<std::size_t>& broken) {
+  stiffness_->subtract(broken);
+  if (matrix_) matrix_->subtract(broken);
+  if (short_range_) short_range_->subtract(broken);
+}
+
+template <int dim>
 GlobalId Body<dim>::flag_damaged_elements() {
   const auto timer = profile_.measure(Phase::adapt);
-  struct FlagPoint {
-    GlobalId element;
-    std::array<double, dim> x;
-  };
-  std::vector<FlagPoint> own;
+  const GlobalId growth = flag_points_.empty() ? 1 : flag_points_.back().growth + 1;
+  std::vector<FlagPoint<dim>> own;
   for (int e = 0; e < mesh_.n_owned_elements; ++e) {
     if (flagged_[e] || !bonds_.is_damaged(e)) continue;
     flagged_[e] = 1;
-    own.push_back({mesh_.element_ids[e], {}});
-    Eigen::Map<Point<dim>>(own.back().x.data()) = mesh::centroid(mesh_, e);
+    own.push_back({mesh_.element_ids[e], growth, {}});
+    Eigen::Map<Point<dim>>(own.back().centroid.data()) = mesh::centroid(mesh_, e);
   }
   auto flag_points = base::gather_on_all(*comm_, own);
   std::sort(flag_points.begin(), flag_points.end(), [](const auto& a, const auto& b) { return a.element < b.element; });
-  for (const auto& flag : flag_points) {
-    pending_zones_.push_back(morphing::Zone<dim>::ball(Eigen::Map<const Point<dim>>(flag.x.data()),
-                                                       options_.growth_inner_radius, options_.growth_outer_radius));
-  }
+  for (const auto& flag : flag_points) add_zone(flag);
   counts_.damaged_elements += static_cast<GlobalId>(flag_points.size());
   return static_cast<GlobalId>(flag_points.size());
+}
+
+template <int dim>
+void Body<dim>::add_zone(const FlagPoint<dim>& flag) {
+  flag_points_.push_back(flag);
+  pending_zones_.push_back(morphing::Zone<dim>::ball(Eigen::Map<const Point<dim>>(flag.centroid.data()),
+                                                     options_.growth_inner_radius, options_.growth_outer_radius));
+}
+
+template <int dim>
+BodyState<dim> Body<dim>::state() const {
+  BodyState<dim> state{load_factor_, force_scale_, {0., dissipated_, external_work_},
+                       counts_,      break_calls_, break_calls_before_topology_,
+                       flag_points_, {},           {}};
+  for (const auto& [call, broken] : broken_by_call_) {
+    for (const auto bond : broken) {
+      const auto [first, second] = bonds_.pair(bonds_.pair_of(bond));
+      if (first >= mesh_.n_owned_elements) continue;
+      state.broken.push_back(
+          {points_.global_id(first, bonds_.first_end(bond)), points_.global_id(second, bonds_.second_end(bond)), call});
+    }
+  }
+  constexpr int stride = BodyState<dim>::values_per_element;
+  const double* u = displacement();
+  state.displacement.assign(static_cast<std::size_t>(mesh_.n_owned_elements) * stride, 0.);
+  for (int e = 0; e < mesh_.n_owned_elements; ++e) {
+    double* values = state.displacement.data() + static_cast<std::size_t>(e) * stride;
+    for (int k = 0; k < mesh_.n_corners(e); ++k) std::copy_n(u + dofs_->nodes_of(e)[k] * dim, dim, values + k * dim);
+  }
+  return state;
+}
+
+/// The same zones in the same order and the same bonds broken at the same time, so that all is built up in the same
+/// order as before, and rounded alike.
+template <int dim>
+void Body<dim>::restore(const BodyState<dim>& state) {
+  PERIMORPH_ASSERT(dofs_ == nullptr, "the body has a topology already");
+  grow_again(state);
+  broken_by_call_ = find_broken(state);
+  const auto break_again = [&](const std::vector<std::size_t>& broken) {
+    for (const auto bond : broken) bonds_.set_broken(bonds_.pair_of(bond), bond);
+  };
+  auto next = broken_by_call_.begin();
+  for (; next != broken_by_call_.end() && next->first <= state.break_calls_before_topology; ++next) {
+    break_again(next->second);
+  }
+  update_topology();
+  for (; next != broken_by_call_.end(); ++next) {
+    break_again(next->second);
+    take_out(next->second);
+  }
+  move_to(state.displacement);
+
+  load_factor_ = state.load_factor;
+  force_scale_ = state.force_scale;
+  dissipated_ = state.energies.dissipated;
+  external_work_ = state.energies.external_work;
+  counts_ = state.counts;
+  break_calls_ = state.break_calls;
+  break_calls_before_topology_ = state.break_calls_before_topology;
+  loads_ = problem_.loads.forces(mesh_, points_, *dofs_, load_factor_);
+  update_forces();
+  last_force_ = force_;
+}
+
+/// Zones are added growth by growth: the order of the bonds depends on it.
+template <int dim>
+void Body<dim>::grow_again(const BodyState<dim>& state) {
+  std::map<GlobalId, int> place_of;
+  for (int e = 0; e < mesh_.n_owned_elements; ++e) place_of[mesh_.element_ids[e]] = e;
+  for (const auto& flag : state.flag_points) {
+    if (!pending_zones_.empty() && (flag_points_.empty() || flag_points_.back().growth != flag.growth)) grow();
+    add_zone(flag);
+    if (const auto found = place_of.find(flag.element); found != place_of.end()) flagged_[found->second] = 1;
+  }
+  grow();
+}
+
+template <int dim>
+typename Body<dim>::BrokenByCall Body<dim>::find_broken(const BodyState<dim>& state) const {
+  constexpr int n = elements::max_points;
+  std::map<GlobalId, int> place_of;
+  for (int e = 0; e < mesh_.n_elements(); ++e) place_of[mesh_.element_ids[e]] = e;
+  BrokenByCall found;
+  GlobalId n_own = 0;
+  for (const auto& broken : state.broken) {
+    const auto first = place_of.find(broken.first / n), second = place_of.find(broken.second / n);
+    if (first == place_of.end() || second == place_of.end()) continue;
+    const auto bond = bonds_.find(first->second, static_cast<int>(broken.first % n), second->second,
+                                  static_cast<int>(broken.second % n));
+    if (bond == bonds_.n_bonds()) continue;
+    found[broken.call].push_back(bond);
+    n_own += first->second < mesh_.n_owned_elements;
+  }
+  for (auto& [call, bonds] : found) std::sort(bonds.begin(), bonds.end());
+  const GlobalId n_found = base::sum(*comm_, n_own);
+  if (n_found == state.counts.broken_bonds) return found;
+  throw base::UserError(
+      fmt::format("of {} broken bonds only {} are bonds of this body", state.counts.broken_bonds, n_found));
+}
+
+template <int dim>
+void Body<dim>::move_to(const std::vector<double>& displacement) {
+  {
+    const auto all = all_u_->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (int e = 0; e < mesh_.n_elements(); ++e) {
+      const double* values = displacement.data() + static_cast<std::size_t>(e) * BodyState<dim>::values_per_element;
+      for (int k = 0; k < mesh_.n_corners(e); ++k) {
+        for (int c = 0; c < dim; ++c) all(dofs_->nodes_of(e)[k] * dim + c, 0) = values[k * dim + c];
+      }
+    }
+  }
+  Tpetra::deep_copy(*owned_u_, *all_u_->offsetView(dofs_->owned_dofs(), 0));
+  last_u_.assign(this->displacement(), this->displacement() + last_u_.size());
 }
 
 template <int dim>

@@ -7,6 +7,7 @@
 #include "case_checks.hpp"
 #include "case_file.hpp"
 #include "choices.hpp"
+#include "literal.hpp"
 #include "perimorph/base/errors.hpp"
 #include "resolve.hpp"
 
@@ -141,6 +142,8 @@ void take_solution(Case& result, const ParameterList& list) {
 /// Requires the displacements to be known.
 void take_output(Case& result, const ParameterList& output) {
   result.output_every = output.get<int>("Every");
+  result.checkpoint_every = output.get<int>("Checkpoint Every");
+  result.checkpoint_minutes = output.get<double>("Checkpoint Minutes");
   result.reactions = output.get<Teuchos::Array<std::string>>("Reactions").toVector();
   if (!result.reactions.empty()) return;
   for (const auto& displacement : result.displacements) {
@@ -152,6 +155,16 @@ void take_output(Case& result, const ParameterList& output) {
 }
 
 }  // namespace
+
+std::string listing(const ParameterList& list, const std::string& path) {
+  std::string text;
+  for (const auto& item : list) {
+    const std::string full = path + "/" + item.first;
+    text += item.second.isList() ? listing(list.sublist(item.first), full)
+                                 : fmt::format("{} = {}\n", full, to_literal(item.second));
+  }
+  return text;
+}
 
 Case read_case(const std::string& file, const std::vector<std::string>& overrides) {
   Mistakes mistakes(file);

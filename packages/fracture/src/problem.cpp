@@ -117,15 +117,8 @@ mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& w
   return mesh::distribute(comm, whole, problem.seeds.empty() ? 0. : problem.micromodulus.horizon);
 }
 
-template <int dim>
-mesh::Mesh<dim> load_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
-                          const std::string& folder) {
-  return distribute_mesh(comm, read_whole_mesh(comm, input, problem, folder), problem);
-}
-
 template Problem<2> make_problem<2>(const Case&);
 template mesh::Mesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const Problem<2>&, const std::string&);
 template mesh::Mesh<2> distribute_mesh<2>(const base::Comm&, const mesh::Mesh<2>&, const Problem<2>&);
-template mesh::Mesh<2> load_mesh<2>(const base::Comm&, const Case&, const Problem<2>&, const std::string&);
 
 }  // namespace perimorph::fracture

@@ -174,7 +174,7 @@ std::vector<base::Point<dim>> gather_points(const base::Comm& comm, const std::v
 
 template <int dim>
 Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder,
-                      Voice voice, base::Profile& profile)
+                      Voice voice, base::Profile& profile, int increment, const std::optional<ResultsState>& earlier)
     : comm_(comm),
       voice_(std::move(voice)),
       profile_(profile),
@@ -183,6 +183,7 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
   for (const auto& group : input.reactions) {
     for (int c = 0; c < dim; ++c) reactions_.push_back({group + "_" + axis_names[c], group, c});
   }
+  if (earlier) take_over(*earlier);
   std::vector<std::string> globals = {"load_factor",    "broken_bonds",      "damaged_elements", "dgfe_elements",
                                       "unknowns",       "linear_solves",     "cg_iterations",    "wall_seconds",
                                       "elastic_energy", "dissipated_energy", "external_work",    "jump_loss"};
@@ -193,11 +194,38 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
     if (comm_->getRank() != 0) return;
     std::vector<std::string> columns = {"increment"};
     columns.insert(columns.end(), globals.begin(), globals.end());
-    history_ = std::make_unique<io::History>((std::filesystem::path(folder) / "history.csv").string(), columns);
+    const std::string history = (std::filesystem::path(folder) / "history.csv").string();
+    history_ = std::make_unique<io::History>(earlier ? io::History::resume(history, columns, increment)
+                                                     : io::History(history, columns));
     series_ =
         std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
                                                 input.title, variable_names<dim>(globals), lines_of(input.resolved));
+    if (earlier) series_->resume(earlier->series);
   });
+}
+
+template <int dim>
+void Results<dim>::take_over(const ResultsState& earlier) {
+  earlier_seconds_ = earlier.seconds;
+  first_break_ = earlier.first_break;
+  broken_before_ = earlier.broken;
+  total_solves_ = earlier.solves;
+  total_iterations_ = earlier.iterations;
+  for (std::size_t i = 0; i < reactions_.size(); ++i) {
+    reactions_[i].peak = earlier.peaks.at(i);
+    reactions_[i].peak_increment = static_cast<int>(earlier.peak_increments.at(i));
+  }
+}
+
+template <int dim>
+ResultsState Results<dim>::state() const {
+  ResultsState state{seconds(), {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
+  if (series_) state.series = series_->extent();
+  for (const auto& r : reactions_) {
+    state.peaks.push_back(r.peak);
+    state.peak_increments.push_back(r.peak_increment);
+  }
+  return state;
 }
 
 template <int dim>
@@ -235,7 +263,7 @@ std::vector<double> Results<dim>::globals(const Body<dim>& body) const {
                                 static_cast<double>(counts.unknowns),
                                 static_cast<double>(counts.linear_solves),
                                 static_cast<double>(counts.cg_iterations),
-                                profile_.elapsed(),
+                                seconds(),
                                 energies.elastic,
                                 energies.dissipated,
                                 energies.external_work,
@@ -271,17 +299,18 @@ void Results<dim>::measure_reactions(int increment, const Body<dim>& body) {
 template <int dim>
 void Results<dim>::show_line(int increment, const Body<dim>& body) {
   if (voice_.shows_progress) fmt::print("\r\033[K");
-  if (increment == 1 && !reactions_.empty()) {  // the one to follow: the largest at first
+  if (!has_shown_a_line_ && !reactions_.empty()) {  // the one to follow: the largest at first
     const auto largest = std::max_element(reactions_.begin(), reactions_.end(), [](const auto& a, const auto& b) {
       return std::abs(a.force) < std::abs(b.force);
     });
     shown_reaction_ = static_cast<int>(largest - reactions_.begin());
   }
   const std::string shown = reactions_.empty() ? "" : reactions_[shown_reaction_].column;
-  if (increment == 1) {
+  if (!has_shown_a_line_) {
     voice_.log->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load",
                      "reaction " + shown, "new broken", "all broken", "DGFE", "unknowns", "solves", "its", "seconds");
   }
+  has_shown_a_line_ = true;
   const auto& counts = body.counts();
   voice_.log->info("{:>6} {:>9.4g} {:>22.6g} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9.2f}", increment,
                    body.load_factor(), reactions_.empty() ? 0. : reactions_[shown_reaction_].force,

@@ -100,6 +100,10 @@ RulePtr count() {
   return rule<int>("a whole number >= 1", [](int value) { return value >= 1; });
 }
 
+RulePtr whole_number() {
+  return rule<int>("a whole number >= 0", [](int value) { return value >= 0; });
+}
+
 RulePtr exactly(int value, const std::string& reason) {
   return rule<int>(fmt::format("{}: {}", value, reason), [value](int found) { return found == value; });
 }

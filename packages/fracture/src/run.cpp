@@ -71,40 +71,53 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
   }
 }
 
+/// A computation that cannot go on can be continued by other means.
 template <int dim>
-void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk) {
+void save_what_is_left(Checkpoints<dim>& checkpoints, spdlog::logger& log) {
+  try {
+    checkpoints.write();
+  } catch (const base::ComputationError& error) {
+    log.warn("{}", error.what());
+  }
+}
+
+template <int dim>
+void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk,
+            Start start) {
   base::Profile profile;
   make_folder(*comm, input, folder);
   base::Log log;
-  base::on_all_ranks(*comm, [&] { log = base::make_log(*comm, talk == Talk::quiet, folder + "/run.log"); });
+  base::on_all_ranks(*comm, [&] {
+    log = base::make_log(*comm, talk == Talk::quiet, folder + "/run.log", start == Start::from_checkpoint);
+  });
   try {
+    Checkpoints<dim> checkpoints(comm, input, folder, log);
+    if (start == Start::from_checkpoint) checkpoints.load();
     write_resolved(*comm, input, folder + "/resolved.xml");
     const auto problem = make_problem<dim>(input);
     const auto mesh = [&] {
       const auto timer = profile.measure(base::Phase::read);
-      return load_mesh(*comm, input, problem, folder);
+      const auto whole = read_whole_mesh(*comm, input, problem, folder);
+      checkpoints.identify(whole);
+      return distribute_mesh(*comm, whole, problem);
     }();
     describe(*comm, input, problem, mesh, log);
     Body<dim> body(comm, mesh, problem, body_options(input), profile);
-    Results<dim> results(comm, input, folder, {log, talk == Talk::progress && comm->getRank() == 0}, profile);
-    run_adaptive_loop(body, results, {input.increments, input.max_damage_iterations, input.max_zone_growths});
+    Results<dim> results(comm, input, folder, {log, talk == Talk::progress && comm->getRank() == 0}, profile,
+                         checkpoints.increment(), checkpoints.results());
+    checkpoints.restore(body);
+    try {
+      run_adaptive_loop(body, results, checkpoints,
+                        {input.increments, input.max_damage_iterations, input.max_zone_growths});
+    } catch (const base::ComputationError&) {
+      save_what_is_left(checkpoints, *log);
+      throw;
+    }
     results.summarize(body);
   } catch (const std::exception& error) {
     log->info("\n{}\n{}", error.what(), profile.table());
     throw;
   }
-}
-
-/// "/Section/Sub/Name = value", a line each.
-std::string listing(const Teuchos::ParameterList& list, const std::string& path) {
-  std::string text;
-  for (const auto& item : list) {
-    const auto& entry = item.second;
-    const std::string full = path + "/" + item.first;
-    text += entry.isList() ? listing(list.sublist(item.first), full)
-                           : fmt::format("{} = {}\n", full, Teuchos::toString(entry.getAny(false)));
-  }
-  return text;
 }
 
 /// A folder that goes when this goes.
@@ -134,7 +147,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   const auto problem = make_problem<dim>(input);
   const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
   const auto mesh = distribute_mesh(*comm, whole, problem);
-  log->info("{}", listing(input.resolved, ""));
+  log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 
@@ -163,8 +176,9 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
 
 void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk) { check_in<2>(comm, input, talk); }
 
-void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk) {
-  run_in<2>(comm, input, folder, talk);
+void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk,
+         Start start) {
+  run_in<2>(comm, input, folder, talk, start);
 }
 
 }  // namespace perimorph::fracture

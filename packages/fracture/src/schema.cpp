@@ -248,6 +248,18 @@ void declare_output(ParameterList& root) {
       "everything and may fill the disk in large runs.",
       count());
   output.set(
+      "Checkpoint Every", 0,
+      "A checkpoint is written every so many increments; 0 is never. The run goes on from each of them as one that "
+      "is continued with --restart: on the same number of processes with the same bits. It takes a second per "
+      "million elements and a set-up of the preconditioner.",
+      whole_number());
+  output.set(
+      "Checkpoint Minutes", 10.,
+      "A checkpoint is written when the last one is so many minutes old and an increment is accepted; 0 is never. "
+      "The end of the run, an error with status 3, SIGTERM, SIGINT and SIGUSR1 write one anyway. The last two are "
+      "kept.",
+      at_least(0.));
+  output.set(
       "Reactions", Texts(),
       "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed displacement.",
       names("a list of groups such as {left, right}"));

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 
 #include "perimorph/base/errors.hpp"
@@ -213,10 +214,29 @@ void put_sets(const File& file, const ExodusModel<dim>& model) {
 }
 
 /// Later files of an earlier run would be opened as part of this series.
-void remove_rest_of_series(const std::string& first) {
+void remove_rest_of_series(const std::string& first, int n_kept) {
   std::error_code ignored;
-  for (int n = 2; std::filesystem::remove(name_in_series(first, n), ignored); ++n) {
+  for (int n = n_kept + 1; std::filesystem::remove(name_in_series(first, n), ignored); ++n) {
   }
+}
+
+/// In netCDF's classic formats bytes 4 to 7 are the number of records, which are the steps, high byte first.
+void cut_steps(const std::string& file, int n_steps) {
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  char header[8] = {};
+  stream.read(header, sizeof header);
+  const bool is_classic = stream && std::memcmp(header, "CDF", 3) == 0 && (header[3] == 1 || header[3] == 2);
+  unsigned int n_present = 0;
+  for (int i = 4; i < 8; ++i) n_present = 256 * n_present + static_cast<unsigned char>(header[i]);
+  if (!is_classic || n_present < static_cast<unsigned int>(n_steps)) {
+    throw base::UserError(
+        fmt::format("{}: the series cannot be continued: this is no file with {} steps or more", file, n_steps));
+  }
+  for (int i = 0; i < 4; ++i) header[7 - i] = static_cast<char>((n_steps >> 8 * i) & 255);
+  stream.seekp(4);
+  stream.write(header + 4, 4);
+  stream.close();
+  if (!stream) throw base::UserError(fmt::format("{}: the series cannot be written", file));
 }
 
 }  // namespace
@@ -253,11 +273,19 @@ void ExodusSeries<dim>::close() {
 }
 
 template <int dim>
+void ExodusSeries<dim>::resume(const SeriesExtent& extent) {
+  n_files_ = extent.files;
+  n_steps_ = extent.steps;
+  remove_rest_of_series(file_, n_files_);
+  if (n_files_ > 0 && std::filesystem::exists(current_file())) cut_steps(current_file(), n_steps_);
+}
+
+template <int dim>
 void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   close();
   block_sizes_ = sizes_of<dim>(model.blocks);
   block_ids_ = ids_of<dim>(model.blocks);
-  if (n_files_ == 0) remove_rest_of_series(file_);
+  if (n_files_ == 0) remove_rest_of_series(file_, 1);
   ++n_files_;
   n_steps_ = 0;
 

@@ -2,7 +2,9 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "perimorph/base/errors.hpp"
 
@@ -49,6 +51,31 @@ History::History(const std::string& file, const std::vector<std::string>& column
     throw base::UserError(fmt::format("{}: the history cannot be written: {}; name another directory with --output",
                                       file_, std::strerror(errno)));
   }
+}
+
+History::History(std::string file, std::size_t n_columns)
+    : file_(std::move(file)), n_columns_(n_columns), stream_(file_, std::ios::app) {}
+
+History History::resume(const std::string& file, const std::vector<std::string>& columns, int increment) {
+  std::ifstream old(file);
+  std::string text, kept;
+  std::getline(old, text);
+  if (text + '\n' != line(columns, quoted_if_needed)) {
+    throw base::UserError(fmt::format("{}: it cannot be continued: it is missing or has other columns", file));
+  }
+  int last = 0;
+  for (kept = text + '\n'; last < increment && std::getline(old, text); kept += text + '\n')
+    last = std::atoi(text.c_str());
+  if (last != increment) {
+    throw base::UserError(fmt::format("{}: it cannot be continued: increment {} is missing", file, increment));
+  }
+  const std::string beside = file + ".part";
+  std::ofstream renewed(beside);
+  renewed << kept << std::flush;
+  std::error_code error;
+  if (renewed) std::filesystem::rename(beside, file, error);
+  if (!renewed || error) throw base::UserError(fmt::format("{}: the history cannot be written", file));
+  return {file, columns.size()};
 }
 
 void History::write(const std::vector<double>& row) {

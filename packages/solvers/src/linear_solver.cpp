@@ -16,6 +16,10 @@ void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
   operator_ = linear_operator;
   preconditioner_matrix_ = preconditioner_matrix;
   near_null_space_ = near_null_space;
+  forget();
+}
+
+void LinearSolver::forget() {
   multigrid_.reset();
   condition_ = Condition::missing;
   smoothing_ = Smoothing::fast;

@@ -20,7 +20,7 @@ LINEAR_ALGEBRA_IN = {
     "solvers": None,
     "fracture": ["Tpetra_Vector", "Tpetra_Import"],
 }
-EXODUS = re.compile(r"(exodusII|netcdf)")
+EXODUS = re.compile(r"(exodusII|netcdf|hdf5)")
 EXODUS_IN = {"io": None, "mesh": ["exodusII"]}
 
 

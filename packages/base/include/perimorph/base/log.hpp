@@ -11,10 +11,10 @@ namespace perimorph::base {
 
 using Log = std::shared_ptr<spdlog::logger>;
 
-/// Rank 0's messages to the terminal (unless quiet; errors always) and, if a file is named, all of them to that file.
-/// The other ranks' logger is silent. Local.
+/// Rank 0's messages to the terminal (unless quiet; errors always) and, if a file is named, all of them to that file,
+/// anew or after what it holds. The other ranks' logger is silent. Local.
 /// @throws UserError if the file cannot be written (on rank 0).
-Log make_log(const Comm& comm, bool quiet, const std::string& file = "");
+Log make_log(const Comm& comm, bool quiet, const std::string& file = "", bool append = false);
 
 /// A logger that says nothing, for tests and libraries.
 Log silent_log();

@@ -47,6 +47,10 @@ class BondFamilies {
   void set_broken(int pair, Bond b);
   int pair_of(Bond b) const;
 
+  /// The bond between two points of different elements, each told by element and number within it; n_bonds() if this
+  /// rank has none. Local.
+  Bond find(int first, int first_end, int second, int second_end) const;
+
   /// Share of a point's bonds, by volume, that are broken (Silling and Askari 2005). For active elements.
   double damage(int point) const { return lost_volume_[point] / std::max(family_volume_[point], 1e-300); }
   /// Whether a bond of the element has broken. For active elements.

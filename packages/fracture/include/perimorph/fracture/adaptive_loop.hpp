@@ -1,6 +1,7 @@
 #pragma once
 
 #include "perimorph/fracture/body.hpp"
+#include "perimorph/fracture/checkpoints.hpp"
 #include "perimorph/fracture/results.hpp"
 
 namespace perimorph::fracture {
@@ -13,9 +14,10 @@ struct LoopLimits {
 };
 
 /// The adaptive algorithm of WHL19, Fig. 5: load increments; in each, bonds break and the peridynamic zone grows until
-/// neither happens any more. Collective.
-/// @throws base::ComputationError if the solver fails or a limit is passed; all accepted increments are then on disk.
+/// neither happens any more. Begins after the increment that the checkpoints have loaded. Collective.
+/// @throws base::ComputationError if the solver fails, a limit is passed, a signal asks to stop or the disk is full;
+/// the results of all accepted increments are then on disk.
 template <int dim>
-void run_adaptive_loop(Body<dim>& body, Results<dim>& results, const LoopLimits& limits);
+void run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints, const LoopLimits& limits);
 
 }  // namespace perimorph::fracture

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Tpetra_Vector_fwd.hpp>
+#include <array>
+#include <map>
 #include <memory>
 
 #include "perimorph/base/profile.hpp"
@@ -41,6 +43,34 @@ struct Energies {
   double elastic = 0., dissipated = 0., external_work = 0.;
 };
 
+/// A broken bond by the global ids of its points, and the call of break_bonds() in which it broke, from 1.
+struct BrokenBond {
+  base::GlobalId first, second, call;
+};
+
+/// Around it the zone has grown, since a bond of the element broke. Growths are counted from 1.
+template <int dim>
+struct FlagPoint {
+  base::GlobalId element, growth;
+  std::array<double, dim> centroid;  ///< [length]
+};
+
+/// One rank's share of all that makes a body what it has become, taken between increments. From the shares of any
+/// number of ranks, any other number of ranks can go on. Zones, alpha, the bonds there are, classes and discontinuous
+/// elements follow from mesh, problem, flag points and broken bonds.
+template <int dim>
+struct BodyState {
+  static constexpr int values_per_element = dim << dim;  ///< as many corners as an element can have, dim values each
+
+  double load_factor = 0., force_scale = 0.;
+  Energies energies;
+  Counts counts;
+  base::GlobalId break_calls = 0, break_calls_before_topology = 0;  ///< of break_bonds(), also before the last topology
+  std::vector<FlagPoint<dim>> flag_points;                          ///< of all ranks, as they came
+  std::vector<BrokenBond> broken;    ///< bonds of which this rank owns the first element, as they broke
+  std::vector<double> displacement;  ///< of owned elements, (n_owned_elements, values_per_element), [length]
+};
+
 /// The deforming, breaking body: its peridynamic zone, bonds, topology and displacement. The adaptive loop (WHL19,
 /// Fig. 5) calls its verbs in turn. All verbs are collective.
 template <int dim>
@@ -67,6 +97,17 @@ class Body {
 
   /// Makes the centroids of newly damaged elements flag points, around which alpha will grow; returns how many.
   base::GlobalId flag_damaged_elements();
+
+  /// What this rank has to remember. Local.
+  BodyState<dim> state() const;
+
+  /// The state of a new body becomes this one, to the last bit if the number of ranks is the same. Collective.
+  /// @param state the displacement of all local elements, and all broken bonds of the body
+  /// @throws UserError if bonds of the state do not exist in this body.
+  void restore(const BodyState<dim>& state);
+
+  /// What comes depends on the state only, and not on what the solver has done before. Local.
+  void forget_solves() { solver_.forget(); }
 
   const Counts& counts() const { return counts_; }
   Energies energies() const;
@@ -98,7 +139,8 @@ class Body {
   solvers::LinearSolver solver_;
 
   std::vector<morphing::Zone<dim>> pending_zones_;
-  std::vector<char> cut_by_pre_crack_;  ///< per local element
+  std::vector<FlagPoint<dim>> flag_points_;  ///< of all ranks
+  std::vector<char> cut_by_pre_crack_;       ///< per local element
   std::vector<morphing::ElementClass> classes_;
   std::vector<char> discontinuous_, flagged_;
   std::unique_ptr<discretization::DofMap<dim>> dofs_;
@@ -121,6 +163,17 @@ class Body {
   Counts counts_;
   double dissipated_ = 0., external_work_ = 0.;
 
+  using BrokenByCall =
+      std::map<base::GlobalId, std::vector<std::size_t>>;  ///< bonds, ascending, by call of break_bonds()
+  BrokenByCall broken_by_call_;                            ///< all that this rank holds
+  base::GlobalId break_calls_ = 0, break_calls_before_topology_ = 0;
+
+  void grow();
+  void add_zone(const FlagPoint<dim>& flag);
+  void grow_again(const BodyState<dim>& state);
+  BrokenByCall find_broken(const BodyState<dim>& state) const;
+  void move_to(const std::vector<double>& displacement);
+  void take_out(const std::vector<std::size_t>& broken);
   void classify();
   bool find_discontinuous();
   void check_pre_cracks() const;

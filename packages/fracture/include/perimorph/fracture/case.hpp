@@ -89,7 +89,9 @@ struct Case {
   double renewal_cost;                  ///< of the preconditioner, in iterations
   Teuchos::ParameterList belos, muelu;  ///< overrides, free-form
 
-  int output_every;  ///< fields are written every so many increments, at every break, and at the last one
+  int output_every;           ///< fields are written every so many increments, at every break, and at the last one
+  int checkpoint_every;       ///< increments; 0: not by these
+  double checkpoint_minutes;  ///< 0: not by time
   std::vector<std::string> reactions;  ///< groups whose reaction is recorded; default: all with prescribed displacement
 
   Teuchos::ParameterList resolved;  ///< every parameter with its value, defaults filled in
@@ -102,6 +104,9 @@ Teuchos::ParameterList case_schema();
 /// Reads and checks a case file; overrides are "Section/Sub/Name=value". Local.
 /// @throws UserError that lists ALL mistakes, one a line, "file:line: /path: what was found; what is allowed".
 Case read_case(const std::string& file, const std::vector<std::string>& overrides = {});
+
+/// The values of a list: "/Section/Sub/Name = value", a line each.
+std::string listing(const Teuchos::ParameterList& list, const std::string& path = "");
 
 /// The schema as text: path, type, default, allowed values, documentation.
 std::string describe_schema();

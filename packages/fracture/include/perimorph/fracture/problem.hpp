@@ -38,10 +38,4 @@ mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const
 template <int dim>
 mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem);
 
-/// Both in one. Collective.
-/// @throws UserError, on all ranks.
-template <int dim>
-mesh::Mesh<dim> load_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
-                          const std::string& folder);
-
 }  // namespace perimorph::fracture

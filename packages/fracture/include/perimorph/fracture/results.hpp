@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "perimorph/base/log.hpp"
@@ -17,14 +18,28 @@ struct Voice {
   bool shows_progress;  ///< a line on the terminal, overwritten in place, while an increment goes on
 };
 
+/// What results have come to, for a run that goes on after them.
+struct ResultsState {
+  double seconds = 0.;  ///< since the start of the run
+  io::SeriesExtent series;
+  int first_break = 0;
+  base::GlobalId broken = 0, solves = 0, iterations = 0;
+  std::vector<double> peaks;                    ///< of each reaction, [force]
+  std::vector<base::GlobalId> peak_increments;  ///< in which increment
+};
+
 /// Everything a run leaves behind: a row of history.csv and a line on the terminal per accepted increment, and the
 /// Exodus series. Rank 0 writes what it gathers from all.
 template <int dim>
 class Results {
  public:
-  /// Collective. @throws UserError if the folder cannot be written.
+  /// Goes on with the results of an earlier run after that increment, if there are any. Collective.
+  /// @throws UserError if the folder cannot be written, or the earlier results are not there.
   Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Voice voice,
-          base::Profile& profile);
+          base::Profile& profile, int increment = 0, const std::optional<ResultsState>& earlier = {});
+
+  /// What it has come to; complete on rank 0 only. Local.
+  ResultsState state() const;
 
   /// Records an increment; fields too if they are due, a bond broke or it is the last. Collective.
   void accept(int increment, const Body<dim>& body);
@@ -51,9 +66,10 @@ class Results {
   int output_every_, last_increment_;
   std::vector<Reaction> reactions_;
   int shown_reaction_ = 0;  ///< in the lines on the terminal
+  bool has_shown_a_line_ = false;
   std::unique_ptr<io::History> history_;
   std::unique_ptr<io::ExodusSeries<dim>> series_;
-  base::GlobalId broken_before_ = 0, topology_written_ = 0;
+  base::GlobalId broken_before_ = 0, topology_written_ = 0;  ///< none of an earlier run's: a new file
   int first_break_ = 0;
   base::Pace pace_;
   double seconds_before_ = 0., last_word_ = 0.;  ///< elapsed at the last accepted increment, at the last line
@@ -62,8 +78,11 @@ class Results {
   /// Rank 0: place in the file of each element in the order of gathering.
   std::vector<int> element_place_;
 
+  void take_over(const ResultsState& earlier);
   void measure_reactions(int increment, const Body<dim>& body);
   void show_line(int increment, const Body<dim>& body);
+  double earlier_seconds_ = 0.;  ///< of the run that this one goes on with
+  double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
   std::vector<double> globals(const Body<dim>& body) const;
   void start_file(const Body<dim>& body);
   void write_fields(const Body<dim>& body, const std::vector<double>& global_values);

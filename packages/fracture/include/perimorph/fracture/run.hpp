@@ -10,9 +10,14 @@ namespace perimorph::fracture {
 /// What a run says while it goes on: nothing, a line per increment, or also a progress bar (for a terminal).
 enum class Talk { quiet, lines, progress };
 
-/// Runs a case from the first increment to the last; results go to the folder, which is made. Collective.
+/// Where a run begins: at the first increment, or after the newest checkpoint in its folder (if there is none, at the
+/// first increment too).
+enum class Start { at_the_first_increment, from_checkpoint };
+
+/// Runs a case to the last increment; results go to the folder, which is made. Collective.
 /// @throws base::UserError, base::ComputationError, base::Bug: the same on all ranks.
-void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk);
+void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk,
+         Start start = Start::at_the_first_increment);
 
 /// Checks a case and its mesh and prints the resolved parameters, the material's derived constants and an estimate of
 /// unknowns, bonds and memory. Collective. @throws as run.

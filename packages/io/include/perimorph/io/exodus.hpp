@@ -32,6 +32,11 @@ struct ExodusStep {
   std::vector<std::vector<double>> element;  ///< [variable][element]
 };
 
+/// How far a series is: files, and steps in the last one.
+struct SeriesExtent {
+  int files = 0, steps = 0;
+};
+
 /// A series of Exodus files: a new file at every change of topology, "case.e", "case.e-s0002", "case.e-s0003", ...
 /// ParaView opens it as one. Every step is flushed, so that a file is readable whatever happens later. Local (rank 0).
 template <int dim>
@@ -47,6 +52,13 @@ class ExodusSeries {
   ~ExodusSeries();
   ExodusSeries(const ExodusSeries&) = delete;
   ExodusSeries& operator=(const ExodusSeries&) = delete;
+
+  SeriesExtent extent() const { return {n_files_, n_steps_}; }
+
+  /// Goes on with a series that an earlier run has left: what lies beyond the extent is removed, and start() begins the
+  /// file after it.
+  /// @throws UserError naming the file, if steps beyond the extent cannot be removed.
+  void resume(const SeriesExtent& extent);
 
   /// Closes the current file, if any, and starts the next one with this model.
   /// @throws ComputationError naming the file, if it cannot be written.

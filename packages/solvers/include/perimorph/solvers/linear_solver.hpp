@@ -26,6 +26,9 @@ class LinearSolver {
   void set_operator(const Teuchos::RCP<Operator>& linear_operator, const Teuchos::RCP<Matrix>& preconditioner_matrix,
                     const NearNullSpace& near_null_space);
 
+  /// The preconditioner is rebuilt before the next solve: nothing that comes depends on solves before. Local.
+  void forget();
+
   /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Returns the iterations. Collective.
   /// If the iteration breaks down or does not converge, it is tried again once with a rebuilt, robust preconditioner.
   /// @throws ComputationError if that fails too.

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "perimorph/base/log.hpp"
+#include "perimorph/base/signals.hpp"
+#include "perimorph/fracture/body.hpp"
+#include "perimorph/fracture/results.hpp"
+#include "perimorph/io/checkpoint.hpp"
+
+namespace perimorph::fracture {
+
+/// A run's checkpoints: the state after the last accepted increment, kept in memory, and brought to disk when it is
+/// due, asked for or about to be lost. They do not depend on the number of ranks.
+template <int dim>
+class Checkpoints {
+ public:
+  Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, base::Log log);
+
+  /// Reads the newest sound checkpoint, if there is any. Collective.
+  /// @throws UserError if all are damaged, or if it belongs to another case: names what differs.
+  void load();
+
+  /// Which mesh this run has. The mesh is whole on rank 0. Collective.
+  /// @throws UserError if the checkpoint that was loaded belongs to another.
+  void identify(const mesh::Mesh<dim>& whole);
+
+  /// The increment that was loaded, 0 if none was, and what the results had come to. Local.
+  int increment() const { return increment_; }
+  const std::optional<ResultsState>& results() const { return results_; }
+
+  /// The body goes on from what was loaded; checkpoints after that are removed. Collective.
+  void restore(Body<dim>& body);
+
+  /// Remembers an accepted increment, and writes it if it is due. At every /Output/Checkpoint Every increments, the run
+  /// itself goes on as one that starts from there would, to the last bit. Collective.
+  /// @throws ComputationError if it is due and cannot be written.
+  void accept(int increment, Body<dim>& body, const Results<dim>& results);
+
+  /// @throws ComputationError if a signal has asked the run to stop. Collective.
+  void heed_signals();
+
+  /// Writes what is remembered, if that is not on disk already. Collective. @throws ComputationError if it cannot be.
+  void write();
+
+ private:
+  Teuchos::RCP<const base::Comm> comm_;
+  base::Log log_;
+  io::CheckpointFolder folder_;
+  std::string case_lines_;
+  int every_, last_increment_;
+  double seconds_;  ///< between two of them
+  std::vector<base::GlobalId> mesh_identity_;
+
+  int increment_ = 0;        ///< loaded or remembered last
+  bool is_on_disk_ = false;  ///< that one
+  BodyState<dim> body_;
+  std::optional<ResultsState> results_;
+  io::Checkpoint loaded_;  ///< on rank 0, until restored
+
+  base::Signals signals_;
+  bool is_asked_ = false;
+  double last_written_ = 0.;
+
+  io::Checkpoint read_newest() const;
+  BodyState<dim> body_state_in(const io::Checkpoint& checkpoint, const mesh::Mesh<dim>& mesh) const;
+  io::Checkpoint gather() const;
+  std::vector<base::GlobalId> own_ids_;  ///< of elements, in the order of body_.displacement
+  bool is_due(int increment);
+};
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,299 @@
+#include "perimorph/fracture/checkpoints.hpp"
+
+#include <chrono>
+#include <sstream>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/mesh/fingerprint.hpp"
+
+namespace perimorph::fracture {
+
+using base::GlobalId;
+
+namespace {
+
+constexpr GlobalId format = 1;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+template <class T>
+std::vector<T> from_root(const base::Comm& comm, const std::vector<T>& values) {
+  return base::gather_on_all(comm, comm.getRank() == 0 ? values : std::vector<T>());
+}
+
+/// The parameters that decide what a run computes, a line each. A run that goes on may go further, solve otherwise or
+/// write more.
+std::string deciding_lines(const Case& input) {
+  constexpr const char* others[] = {"/Title",   "/Mesh/File",    "/Loading/",
+                                    "/Solver/", "/Output/Every", "/Output/Checkpoint"};
+  std::istringstream all(listing(input.resolved));
+  std::string deciding;
+  for (std::string line; std::getline(all, line);) {
+    const bool decides = std::none_of(std::begin(others), std::end(others),
+                                      [&](const std::string other) { return line.rfind(other, 0) == 0; });
+    if (decides) deciding += line + '\n';
+  }
+  return deciding;
+}
+
+/// The first line that only one of two texts has, from each; "" if there is none.
+std::pair<std::string, std::string> first_difference(const std::string& one, const std::string& other) {
+  std::istringstream a(one), b(other);
+  std::string line_a, line_b;
+  do {
+    if (!std::getline(a, line_a)) line_a.clear();
+    if (!std::getline(b, line_b)) line_b.clear();
+  } while (line_a == line_b && !line_a.empty());
+  return {line_a, line_b};
+}
+
+template <int dim>
+void put_body(io::Checkpoint& checkpoint, const BodyState<dim>& state) {
+  const auto& counts = state.counts;
+  checkpoint.numbers["body"] = {state.load_factor, state.force_scale, state.energies.dissipated,
+                                state.energies.external_work};
+  checkpoint.integers["body_counts"] = {
+      counts.broken_bonds, counts.damaged_elements, counts.dgfe_elements,
+      counts.unknowns,     counts.linear_solves,    counts.cg_iterations,
+      counts.topologies,   state.break_calls,       state.break_calls_before_topology};
+  auto& centroids = checkpoint.numbers["flag_points"];
+  auto& flagged = checkpoint.integers["flagged_elements"];
+  for (const auto& flag : state.flag_points) {
+    centroids.insert(centroids.end(), flag.centroid.begin(), flag.centroid.end());
+    flagged.insert(flagged.end(), {flag.element, flag.growth});
+  }
+}
+
+template <int dim>
+BodyState<dim> body_in(const std::vector<double>& numbers, const std::vector<GlobalId>& counts,
+                       const std::vector<double>& centroids, const std::vector<GlobalId>& flagged) {
+  BodyState<dim> state;
+  state.load_factor = numbers.at(0);
+  state.force_scale = numbers.at(1);
+  state.energies = {0., numbers.at(2), numbers.at(3)};
+  state.counts = {counts.at(0), counts.at(1), counts.at(2), counts.at(3), counts.at(4), counts.at(5), counts.at(6)};
+  state.break_calls = counts.at(7);
+  state.break_calls_before_topology = counts.at(8);
+  for (std::size_t i = 0; 2 * i < flagged.size(); ++i) {
+    state.flag_points.push_back({flagged[2 * i], flagged[2 * i + 1], {}});
+    std::copy_n(centroids.begin() + static_cast<long>(i) * dim, dim, state.flag_points.back().centroid.begin());
+  }
+  return state;
+}
+
+void put_results(io::Checkpoint& checkpoint, const ResultsState& state) {
+  checkpoint.numbers["results"] = {state.seconds};
+  checkpoint.integers["results_counts"] = {state.series.files, state.series.steps, state.first_break,
+                                           state.broken,       state.solves,       state.iterations};
+  checkpoint.numbers["peaks"] = state.peaks;
+  checkpoint.integers["peak_increments"] = state.peak_increments;
+}
+
+ResultsState results_in(const base::Comm& comm, const io::Checkpoint& checkpoint) {
+  const auto numbers = [&](const char* name) {
+    return from_root(comm, comm.getRank() == 0 ? checkpoint.numbers.at(name) : std::vector<double>());
+  };
+  const auto integers = [&](const char* name) {
+    return from_root(comm, comm.getRank() == 0 ? checkpoint.integers.at(name) : std::vector<GlobalId>());
+  };
+  const auto counts = integers("results_counts");
+  ResultsState state;
+  state.seconds = numbers("results").at(0);
+  state.series = {static_cast<int>(counts.at(0)), static_cast<int>(counts.at(1))};
+  state.first_break = static_cast<int>(counts.at(2));
+  state.broken = counts.at(3);
+  state.solves = counts.at(4);
+  state.iterations = counts.at(5);
+  state.peaks = numbers("peaks");
+  state.peak_increments = integers("peak_increments");
+  return state;
+}
+
+/// Every rank's elements' values out of those of all elements, which rank 0 has. Collective.
+std::vector<double> fetch(const base::Comm& comm, const std::vector<GlobalId>& elements, std::size_t stride,
+                          const std::vector<double>& all) {
+  std::vector<std::vector<GlobalId>> asked(comm.getSize());
+  asked[0] = elements;
+  std::vector<std::vector<double>> answers(comm.getSize());
+  const auto questions = base::exchange(comm, asked);
+  for (std::size_t rank = 0; rank < questions.size(); ++rank) {
+    for (const GlobalId element : questions[rank]) {
+      const auto values = all.begin() + element * static_cast<GlobalId>(stride);
+      answers[rank].insert(answers[rank].end(), values, values + static_cast<GlobalId>(stride));
+    }
+  }
+  return base::exchange(comm, answers)[0];
+}
+
+}  // namespace
+
+template <int dim>
+Checkpoints<dim>::Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder,
+                              base::Log log)
+    : comm_(comm),
+      log_(std::move(log)),
+      folder_(folder),
+      case_lines_(deciding_lines(input)),
+      every_(input.checkpoint_every),
+      last_increment_(input.increments),
+      seconds_(60. * input.checkpoint_minutes),
+      last_written_(now()) {}
+
+/// On rank 0.
+template <int dim>
+io::Checkpoint Checkpoints<dim>::read_newest() const {
+  const auto increments = folder_.increments();
+  std::string trouble;
+  for (auto newest = increments.rbegin(); newest != increments.rend(); ++newest) {
+    try {
+      return folder_.read(*newest);
+    } catch (const base::UserError& error) {
+      log_->warn("{}", error.what());
+      trouble = error.what();
+    }
+  }
+  if (!trouble.empty()) throw base::UserError(trouble + ", and so are all others: run without --restart");
+  return {};
+}
+
+template <int dim>
+void Checkpoints<dim>::load() {
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() != 0) return;
+    loaded_ = read_newest();
+    if (loaded_.integers.empty()) {
+      log_->info("no checkpoint found: starting from the beginning");
+      return;
+    }
+    if (loaded_.integers["format"] != std::vector<GlobalId>{format}) {
+      throw base::UserError("--restart: the checkpoint is of another version of the program");
+    }
+    const auto [here, there] = first_difference(case_lines_, loaded_.texts["case"]);
+    if (here == there) return;
+    throw base::UserError(
+        fmt::format("--restart: the checkpoint belongs to another case: there \"{}\", here \"{}\"; "
+                    "run without --restart, or name the case's own folder with --output",
+                    there, here));
+  });
+  GlobalId loaded = 0;
+  if (!loaded_.integers.empty()) loaded = loaded_.integers.at("increment").at(0);
+  increment_ = static_cast<int>(base::max(*comm_, loaded));
+  if (increment_ > 0) results_ = results_in(*comm_, loaded_);
+}
+
+template <int dim>
+void Checkpoints<dim>::identify(const mesh::Mesh<dim>& whole) {
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() != 0) return;
+    mesh_identity_ = {whole.n_global_elements, whole.n_global_nodes, mesh::fingerprint(whole)};
+    if (increment_ == 0) return;
+    const auto& there = loaded_.integers["mesh"];
+    if (there == mesh_identity_) return;
+    const bool same_size = there.at(0) == mesh_identity_[0] && there.at(1) == mesh_identity_[1];
+    throw base::UserError(fmt::format(
+        "--restart: the checkpoint belongs to another mesh: {}; run without --restart, or bring back its mesh",
+        same_size ? "as large as this one, but with other coordinates, elements or groups"
+                  : fmt::format("there {} elements and {} nodes, here {} and {}", there.at(0), there.at(1),
+                                mesh_identity_[0], mesh_identity_[1])));
+  });
+}
+
+template <int dim>
+void Checkpoints<dim>::restore(Body<dim>& body) {
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) folder_.remove_after(increment_);
+  });
+  if (increment_ == 0) return;
+  body.restore(body_state_in(loaded_, body.mesh()));
+  loaded_ = {};
+  is_on_disk_ = true;
+  log_->info("restart          after increment {}, load factor {:.6g}, {} broken bonds", increment_, body.load_factor(),
+             body.counts().broken_bonds);
+}
+
+template <int dim>
+BodyState<dim> Checkpoints<dim>::body_state_in(const io::Checkpoint& checkpoint, const mesh::Mesh<dim>& mesh) const {
+  const bool is_root = comm_->getRank() == 0;
+  const auto numbers = [&](const char* name) { return is_root ? checkpoint.numbers.at(name) : std::vector<double>(); };
+  const auto integers = [&](const char* name) {
+    return from_root(*comm_, is_root ? checkpoint.integers.at(name) : std::vector<GlobalId>());
+  };
+  auto state = body_in<dim>(from_root(*comm_, numbers("body")), integers("body_counts"),
+                            from_root(*comm_, numbers("flag_points")), integers("flagged_elements"));
+  const auto broken = integers("broken_bonds");
+  for (std::size_t i = 0; i < broken.size(); i += 3) state.broken.push_back({broken[i], broken[i + 1], broken[i + 2]});
+  state.displacement = fetch(*comm_, mesh.element_ids, BodyState<dim>::values_per_element, numbers("displacement"));
+  return state;
+}
+
+template <int dim>
+bool Checkpoints<dim>::is_due(int increment) {
+  const bool is_time = seconds_ > 0. && now() - last_written_ >= seconds_;  // rank 0 has the clock
+  const bool is_by_count = every_ > 0 && increment % every_ == 0;
+  const bool is_by_time = base::max(*comm_, static_cast<GlobalId>(comm_->getRank() == 0 && is_time)) > 0;
+  return is_by_count || is_by_time || is_asked_ || increment == last_increment_;
+}
+
+template <int dim>
+void Checkpoints<dim>::accept(int increment, Body<dim>& body, const Results<dim>& results) {
+  const auto first = body.mesh().element_ids.begin();
+  own_ids_.assign(first, first + body.mesh().n_owned_elements);
+  body_ = body.state();
+  results_ = results.state();
+  increment_ = increment;
+  is_on_disk_ = false;
+  if (is_due(increment)) write();
+  if (every_ > 0 && increment % every_ == 0) body.forget_solves();
+}
+
+template <int dim>
+void Checkpoints<dim>::heed_signals() {
+  const auto wishes = signals_.look(*comm_);
+  is_asked_ = is_asked_ || wishes.checkpoint;
+  if (wishes.stop.empty()) return;
+  throw base::ComputationError(
+      fmt::format("{} asked it to stop; --restart goes on after increment {}", wishes.stop, increment_));
+}
+
+template <int dim>
+void Checkpoints<dim>::write() {
+  if (increment_ == 0 || is_on_disk_) return;
+  const auto checkpoint = gather();
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) folder_.write(increment_, checkpoint);
+  });
+  is_on_disk_ = true;
+  is_asked_ = false;
+  last_written_ = now();
+}
+
+/// On rank 0. Elements by global id, so that the ranks leave no trace.
+template <int dim>
+io::Checkpoint Checkpoints<dim>::gather() const {
+  constexpr auto stride = static_cast<std::size_t>(BodyState<dim>::values_per_element);
+  const auto broken = base::gather_on_root(*comm_, body_.broken);
+  const auto ids = base::gather_on_root(*comm_, own_ids_);
+  const auto values = base::gather_on_root(*comm_, body_.displacement);
+  io::Checkpoint checkpoint;
+  if (comm_->getRank() != 0) return checkpoint;
+
+  checkpoint.integers["format"] = {format};
+  checkpoint.integers["increment"] = {increment_};
+  checkpoint.integers["mesh"] = mesh_identity_;
+  checkpoint.texts["case"] = case_lines_;
+  put_body(checkpoint, body_);
+  put_results(checkpoint, *results_);
+  auto& displacement = checkpoint.numbers["displacement"];
+  displacement.resize(values.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    std::copy_n(values.begin() + static_cast<long>(i * stride), stride,
+                displacement.begin() + ids[i] * static_cast<long>(stride));
+  }
+  auto& bonds = checkpoint.integers["broken_bonds"];
+  for (const auto& bond : broken) bonds.insert(bonds.end(), {bond.first, bond.second, bond.call});
+  return checkpoint;
+}
+
+template class Checkpoints<2>;
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,303 @@
+"""Checkpoints and --restart: a run that was ended in any way goes on as if it had not been.
+
+    restart.py PERIMORPH MPIEXEC
+
+PERIMORPH_KILLS is how often the test with SIGKILL kills its run; 3 if it is not set.
+"""
+
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import time
+import unittest
+
+import netCDF4
+import numpy
+
+import driver
+
+INCREMENTS = 16  # bonds break in 12 to 16, and the zone grows in 12, 13 and 15
+CASE = driver.CASE.replace('value="-0.2"', 'value="-0.05"').replace('name="Rate" type="double" value="0.2"', 'name="Rate" type="double" value="0.05"')
+EVERY = ["--set", "Output/Checkpoint Every=1"]
+
+
+class Restart(driver.Driver):
+    def setUp(self):
+        super().setUp()
+        self.case.write_text(CASE.replace('"Increments" type="int" value="3"', f'"Increments" type="int" value="{INCREMENTS}"'))
+
+    def run_until(self, increment, *options, ranks=1):
+        run = self.run_case("--quiet", "--set", f"Loading/Increments={increment}", *options, ranks=ranks)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def checkpoints(self):
+        return sorted(p.name for p in self.output.glob("checkpoint*"))
+
+    def rows(self):
+        """The history without the seconds."""
+        return [{name: value for name, value in row.items() if name != "wall_seconds"} for row in self.history()]
+
+    def fields(self):
+        """By variable: all steps of the series, each from its own file."""
+        times, steps = [], []
+        for part in self.series():
+            with netCDF4.Dataset(part) as file:
+                times += list(file["time_whole"][:].data)
+                for i in range(len(file["time_whole"])):
+                    steps.append({name: file[name][i].data for name in file.variables if name.startswith(("vals_nod", "vals_elem"))})
+        return times, steps
+
+    def outcome(self):
+        return self.rows(), *self.fields()
+
+    def uninterrupted(self, ranks=1):
+        whole = self.output
+        self.output = self.folder / f"uninterrupted-{ranks}"
+        self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+        outcome = self.outcome()
+        self.output = whole
+        self.assertEqual(len(outcome[0]), INCREMENTS)
+        self.assertGreater(float(outcome[0][-1]["broken_bonds"]), 150)
+        return outcome
+
+    def assert_same(self, outcome, other):
+        """To the last bit."""
+        self.assertEqual(outcome[0], other[0])
+        self.assertEqual(outcome[1], other[1])
+        for step, other_step in zip(outcome[2], other[2], strict=True):
+            self.assertEqual(step.keys(), other_step.keys())
+            for name in step:
+                numpy.testing.assert_array_equal(step[name], other_step[name])
+
+
+class Continued(Restart):
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stops in [(1, [1, 11, 12, 15]), (2, [14])]:
+            whole = self.uninterrupted(ranks)
+            for stop in stops:  # before damage, at the first breaks, after growths, between two growths
+                with self.subTest(ranks=ranks, stop=stop):
+                    self.run_until(stop, *EVERY, ranks=ranks)
+                    self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
+                    self.assert_same(self.outcome(), whole)
+
+    def test_on_other_ranks_the_same_bonds_break(self):
+        rows, times, steps = self.uninterrupted()
+        for before, after in [(1, 2), (3, 1)]:
+            with self.subTest(before=before, after=after):
+                self.run_until(13, ranks=before)
+                self.run_until(INCREMENTS, "--restart", ranks=after)
+
+                for row, other in zip(rows, self.rows(), strict=True):
+                    for name in ["increment", "broken_bonds", "damaged_elements", "dgfe_elements", "unknowns"]:
+                        self.assertEqual(row[name], other[name])
+                    # Tolerance, 1e-6 of the reactions; energies of bonds that break while it is Damage Tolerance, 1e-4.
+                    self.assertAlmostEqual(float(row["reaction_upper_y"]) / float(other["reaction_upper_y"]), 1, places=5)
+                    self.assertAlmostEqual(float(row["dissipated_energy"]), float(other["dissipated_energy"]), delta=1e-4)
+                self.assertEqual(self.fields()[0], times)
+                last = self.fields()[1][-1]
+                for c in "12":  # nodes are numbered by rank
+                    ours, theirs = (numpy.sort(s[f"vals_nod_var{c}"]) for s in [steps[-1], last])
+                    numpy.testing.assert_allclose(ours, theirs, atol=1e-5)  # displacements are up to 0.8
+
+    def test_a_run_that_is_done_can_go_further(self):
+        self.run_until(3)
+        self.run_until(3, "--restart")
+        self.assertEqual([row["increment"] for row in self.rows()], ["1", "2", "3"])
+        self.run_until(5, "--restart")
+        self.assertEqual([row["increment"] for row in self.rows()], ["1", "2", "3", "4", "5"])
+        self.assertIn("after increment 3", (self.output / "run.log").read_text())
+
+    def test_without_a_checkpoint_it_starts_from_the_beginning(self):
+        run = self.run_case("--set", "Loading/Increments=2", "--restart")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("no checkpoint found: starting from the beginning", run.stdout)
+        self.assertEqual(len(self.rows()), 2)
+
+    def test_a_new_run_removes_the_checkpoints_of_an_older_one(self):
+        self.run_until(8, *EVERY)
+        self.run_until(3)
+        self.assertEqual(self.checkpoints(), ["checkpoint-000003.h5"])
+
+    def test_rows_and_steps_after_the_checkpoint_are_computed_anew(self):
+        whole = self.uninterrupted()
+        self.run_until(13, *EVERY)
+        older = {p: p.read_bytes() for p in self.output.glob("checkpoint*")}
+        self.run_until(15, *EVERY, "--restart")
+        for path in self.output.glob("checkpoint*"):
+            path.unlink()
+        for path, content in older.items():
+            path.write_bytes(content)
+        self.run_until(INCREMENTS, *EVERY, "--restart")
+        self.assert_same(self.outcome(), whole)
+
+    def test_the_last_two_are_kept_and_the_older_serves_if_the_newest_is_damaged(self):
+        whole = self.uninterrupted()
+        for harm in [lambda b: b[: len(b) // 2], lambda b: b[:-1], lambda b: b"", lambda b: b[:9000] + b"spoilt" + b[9006:]]:
+            self.run_until(14, *EVERY)
+            self.assertEqual(self.checkpoints(), ["checkpoint-000013.h5", "checkpoint-000014.h5"])
+            newest = self.output / "checkpoint-000014.h5"
+            newest.write_bytes(harm(newest.read_bytes()))
+
+            run = self.run_case("--restart", *EVERY)
+
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("checkpoint-000014.h5: the checkpoint cannot be read, or is damaged", run.stdout)
+            self.assertIn("after increment 13", run.stdout)
+            self.assert_same(self.outcome(), whole)
+            self.assertEqual(self.checkpoints(), ["checkpoint-000015.h5", "checkpoint-000016.h5"])
+
+
+class Refused(Restart):
+    """Status 2, what differs, and nothing changed."""
+
+    def setUp(self):
+        super().setUp()
+        self.run_until(2)
+
+    def assert_refused(self, *pieces, options=()):
+        before = {p.name: p.read_bytes() for p in self.output.iterdir() if p.name != "run.log"}
+        for ranks in [1, 2]:
+            run = self.run_case("--restart", *options, ranks=ranks)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            for piece in pieces:
+                self.assertEqual(run.stderr.count(piece), 1, run.stderr)
+            after = {p.name: p.read_bytes() for p in self.output.iterdir() if p.name != "run.log"}
+            self.assertEqual(after.keys(), before.keys())
+            self.assertEqual([n for n in before if before[n] != after[n] and n != "resolved.xml"], [])
+
+    def test_another_case(self):
+        self.assert_refused(
+            "belongs to another case",
+            'there "/Material/Critical Stretch = 0.05", here "/Material/Critical Stretch = 0.050000000001"',
+            options=["--set", "Material/Critical Stretch=0.050000000001"],
+        )
+
+    def test_another_seed(self):
+        self.case.write_text(self.case.read_text().replace("{5, 6}", "{5, 6.5}"))
+        self.assert_refused("/Morphing/Seeds/tip/Center = {5, 6}", "/Morphing/Seeds/tip/Center = {5, 6.5}")
+
+    def test_another_mesh(self):
+        file = self.folder / "plate.msh"
+        file.write_text(file.read_text().replace("\n30 3 2 0\n", "\n30 3.0001 2 0\n"))
+        self.assert_refused("belongs to another mesh: as large as this one, but with other coordinates")
+
+    def test_only_damaged_checkpoints(self):
+        for path in self.output.glob("checkpoint*"):
+            path.write_bytes(b"none")
+        self.assert_refused("damaged, and so are all others")
+
+    def test_a_history_that_is_gone(self):
+        (self.output / "history.csv").write_text("")
+        self.assert_refused("history.csv: it cannot be continued")
+
+    def test_what_only_says_how_to_compute_may_differ(self):
+        self.run_until(3, "--restart", "--set", "Solver/Operator=CRS", "--set", "Output/Every=2", "--set", "Title=other")
+        self.assertEqual(len(self.rows()), 3)
+
+
+class Ended(Restart):
+    """By signals, errors and a full disk: status 3 in order, or at once by SIGKILL."""
+
+    ENDLESS = ["--set", "Loading/Increments=1000000", "--set", "Output/Every=1000000", "--set", "Material/Critical Stretch=1e3"]
+
+    def start(self, *options, ranks=1):
+        command = [driver.MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
+        command += [driver.PERIMORPH, "run", self.case, "--output", self.output, "--quiet", *options]
+        run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.stderr.close)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        return run
+
+    def wait_for(self, condition):
+        end = time.monotonic() + 60
+        while not condition():
+            self.assertLess(time.monotonic(), end, "nothing happened")
+            time.sleep(0.01)
+
+    def has_rows(self, n):
+        file = self.output / "history.csv"
+        return file.exists() and len(file.read_text().splitlines()) > n
+
+    def test_a_signal_ends_it_after_writing_the_last_accepted_increment(self):
+        for name, ranks in [("SIGTERM", 1), ("SIGINT", 1), ("SIGTERM", 2)]:
+            with self.subTest(name=name, ranks=ranks):
+                run = self.start(*self.ENDLESS, ranks=ranks)
+                self.wait_for(lambda: self.has_rows(5))
+                process = run.pid
+                if ranks > 1:  # one of them alone
+                    process = int(pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()[0])
+                os.kill(process, getattr(signal, name))
+
+                self.assertEqual(run.wait(timeout=60), 3)
+                last = self.rows()[-1]["increment"]
+                self.assertIn(f"{name} asked it to stop; --restart goes on after increment {last}", run.stderr.read())
+                self.assertEqual(self.checkpoints(), [f"checkpoint-{int(last):06d}.h5"])
+                (self.output / "history.csv").unlink()
+
+    def test_sigusr1_writes_one_and_the_run_goes_on(self):
+        run = self.start(*self.ENDLESS)
+        self.wait_for(lambda: self.has_rows(1))
+        for n in [1, 2, 2]:
+            before = self.checkpoints()
+            os.kill(run.pid, signal.SIGUSR1)
+            self.wait_for(lambda: self.checkpoints()[-1:] != before[-1:] and ".part" not in str(self.checkpoints()))
+            self.assertLessEqual(n, len(self.checkpoints()))
+            self.assertIsNone(run.poll())
+
+    def test_an_error_leaves_a_checkpoint_to_go_on_from(self):
+        run = self.run_case("--set", "Loading/Maximum Damage Iterations=5")
+        self.assertEqual(run.returncode, 3, run.stderr)
+        self.assertEqual((len(self.rows()), self.checkpoints()), (11, ["checkpoint-000011.h5"]))
+        self.run_until(INCREMENTS, "--restart")
+        self.assertEqual(len(self.rows()), INCREMENTS)
+
+    def test_killed_at_any_moment_it_loses_and_doubles_nothing(self):
+        kills = int(os.environ.get("PERIMORPH_KILLS", 3))
+        seed = random.randrange(10**6)
+        chance = random.Random(seed)
+        whole = self.uninterrupted()
+        begin = time.monotonic()
+        self.assertEqual(self.start(*EVERY).wait(timeout=60), 0)
+        duration = time.monotonic() - begin
+        with self.subTest(seed=seed):
+            for kill in range(kills):
+                options = ["--restart"] if kill % 8 else []  # now and then from the beginning
+                run = self.start(*EVERY, *options)
+                time.sleep(chance.uniform(0.2, 1) * duration)
+                run.kill()
+                run.wait()
+                resumed = self.start(*EVERY, "--restart", "--set", f"Loading/Increments={chance.randint(10, INCREMENTS)}")
+                self.assertEqual(resumed.wait(timeout=60), 0, resumed.stderr.read())
+                found = self.rows()
+                self.assertEqual(found, whole[0][: len(found)])
+                self.assertEqual(self.fields()[0], whole[1][: len(found)])
+            self.run_until(INCREMENTS, *EVERY, "--restart")
+            self.assert_same(self.outcome(), whole)
+
+    def test_a_full_disk_ends_it_in_order_and_the_last_checkpoint_serves(self):
+        whole = self.uninterrupted()
+        for kilobytes in [250, 350]:
+            with self.subTest(kilobytes=kilobytes):
+                disk = self.folder / f"disk-{kilobytes}"
+                disk.mkdir()
+                mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k", "tmpfs", disk], capture_output=True)
+                if mounted.returncode != 0:
+                    self.skipTest("only root can make a small disk")
+                self.addCleanup(subprocess.run, ["umount", disk], check=True)
+                self.output = disk
+
+                run = self.run_case(*EVERY)
+
+                self.assertEqual(run.returncode, 3, run.stderr)
+                self.assertIn("No space left on device", run.stderr)
+                self.assertNotIn(".part", str(self.checkpoints()))
+                subprocess.run(["mount", "-o", "remount,size=4m", disk], check=True)
+                self.run_until(INCREMENTS, *EVERY, "--restart")
+                self.assert_same(self.outcome(), whole)
+
+
+if __name__ == "__main__":
+    unittest.main()
