@@ -1,0 +1,119 @@
+// The coupled stiffness of a block of hexahedra: both forms agree, six rigid motions cost nothing.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Teuchos_DefaultComm.hpp>
+#include <Tpetra_Core.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+
+#include "perimorph/mesh/distribute.hpp"
+#include "perimorph/operators/coupled_stiffness.hpp"
+#include "perimorph/operators/matrix_free_stiffness.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using Point3 = base::Point<3>;
+
+/// n x n x n cubes of side 1.
+mesh::Mesh<3> block(int n) {
+  mesh::Mesh<3> mesh;
+  mesh.block_names = {"body"};
+  const auto node = [&](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
+  for (int k = 0; k <= n; ++k) {
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) mesh.coordinates.emplace_back(i, j, k);
+    }
+  }
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        for (const int up : {k, k + 1}) {
+          for (const int corner : {node(i, j, up), node(i + 1, j, up), node(i + 1, j + 1, up), node(i, j + 1, up)}) {
+            mesh.corners.push_back(corner);
+          }
+        }
+        mesh.first_corner.push_back(static_cast<int>(mesh.corners.size()));
+        mesh.types.push_back(mesh::ElementType::hex8);
+        mesh.blocks.push_back(0);
+      }
+    }
+  }
+  for (int i = 0; i < mesh.n_nodes(); ++i) mesh.node_ids.push_back(i);
+  for (int e = 0; e < mesh.n_elements(); ++e) mesh.element_ids.push_back(e);
+  mesh.node_owners.assign(mesh.n_nodes(), 0);
+  mesh.element_owners.assign(mesh.n_elements(), 0);
+  mesh.n_owned_nodes = mesh.n_nodes();
+  mesh.n_owned_elements = mesh.n_elements();
+  mesh.n_global_nodes = mesh.n_nodes();
+  mesh.n_global_elements = mesh.n_elements();
+  mesh::find_boundary(mesh);
+  return mesh;
+}
+
+/// A block whose lower half is peridynamic, blending into classical elasticity above; all elements continuous.
+struct Block {
+  static constexpr double youngs_modulus = 1000., horizon = 1.2;
+  static constexpr auto model = materials::ElasticModel::three_dimensional;
+  Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
+  mesh::Mesh<3> mesh = mesh::distribute(*comm, block(4), horizon);
+  base::Stiffness<3> e0 = materials::elasticity_tensor<3>(model, youngs_modulus, 0.25);
+  materials::Micromodulus c0 = materials::calibrate<3>(model, youngs_modulus, 0.3, horizon);
+  elements::MaterialPoints<3> points{mesh};
+  morphing::MorphingField<3> alpha{mesh, points, morphing::Profile::linear};
+  bonds::BondFamilies<3> bonds{mesh, points, mesh::active_elements(mesh), c0, {}};
+  operators::MorphedStiffness<3> elasticity{e0, operators::PeridynamicStiffness::kept};
+  discretization::Dirichlet<3> dirichlet{*comm, mesh, {}};
+  std::vector<char> continuous = std::vector<char>(mesh.n_elements(), 0);
+  discretization::DofMap<3> dofs{comm, mesh, discretization::corner_exchange(*comm, mesh), continuous};
+
+  Block() {
+    bonds.extend(alpha.add({morphing::Zone<3>::box(Point3::Zero(), Point3(4., 4., 1.), 2.)}));
+    elasticity.update(mesh, points, bonds, alpha,
+                      std::vector<morphing::ElementClass>(mesh.n_elements(), morphing::ElementClass::morph),
+                      continuous);
+  }
+  operators::CoupledModel<3> coupled() const { return {mesh, points, bonds, alpha, elasticity, dofs}; }
+  operators::Supports<3> supports() const { return {coupled(), dirichlet, continuous}; }
+};
+
+Eigen::MatrixXd dense(const Tpetra::CrsMatrix<double>& matrix) {
+  const auto local = matrix.getLocalMatrixHost();
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(local.numRows(), local.numCols());
+  for (int row = 0; row < local.numRows(); ++row) {
+    for (auto i = local.graph.row_map(row); i < local.graph.row_map(row + 1); ++i) {
+      k(row, local.graph.entries(i)) = local.values(i);
+    }
+  }
+  return k;
+}
+
+TEST(StiffnessIn3d, IsSymmetricAndPositiveWithSixRigidModesAtZeroEnergy) {
+  const Block body;
+  ASSERT_GT(body.bonds.n_bonds(), 9000u);
+  const operators::CoupledStiffness<3> stiffness(body.coupled(), body.supports());
+  const Eigen::MatrixXd k = dense(*stiffness.matrix());
+  const double largest = k.cwiseAbs().maxCoeff();
+  EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 1e-13 * largest);
+
+  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+  EXPECT_LT(eigenvalues.head(6).cwiseAbs().maxCoeff(), 1e-12 * eigenvalues.maxCoeff());
+  EXPECT_GT(eigenvalues[6], 1e-4 * eigenvalues.maxCoeff());
+}
+
+TEST(StiffnessIn3d, IsTheSameWithoutAMatrix) {
+  const Block body;
+  const operators::CoupledStiffness<3> stiffness(body.coupled(), body.supports());
+  const operators::MatrixFreeStiffness<3> matrix_free(body.coupled(), body.supports());
+  Eigen::VectorXd u(3 * body.dofs.n_nodes());
+  for (int i = 0; i < u.size(); ++i) u[i] = std::sin(1.7 * i);
+
+  const auto force = matrix_free.internal_force(u.data());
+
+  const Eigen::VectorXd expected = dense(*stiffness.matrix()) * u;
+  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(force.data(), u.size()) - expected).norm(), 1e-13 * expected.norm());
+}
+
+}  // namespace
+}  // namespace perimorph::tests
