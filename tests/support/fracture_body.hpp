@@ -14,7 +14,7 @@ using fracture::DiscontinuousElements;
 using morphing::Zone;
 using operators::PeridynamicStiffness;
 
-/// What a test says of a body; plane stress, nu = 1/3, Young's modulus 1000, unit thickness.
+/// What a test says of a body; plane stress, nu = 1/3, unit thickness.
 struct Specimen {
   mesh::Mesh<2> whole;  ///< used on rank 0
   double horizon, characteristic_length;
@@ -28,11 +28,12 @@ struct Specimen {
   Point2 body_force_rate = Point2::Zero();
   bool is_proportional = true;
   double tolerance = 1e-10;  ///< residual over reaction forces
+  double youngs_modulus = 1000.;
 };
 
 inline fracture::Problem<2> make_problem(const Specimen& specimen) {
-  constexpr double youngs_modulus = 1000.;
   constexpr auto model = materials::ElasticModel::plane_stress;
+  const double youngs_modulus = specimen.youngs_modulus;
   const auto c0 = materials::calibrate<2>(model, youngs_modulus, specimen.characteristic_length, specimen.horizon);
   return {materials::elasticity_tensor<2>(model, youngs_modulus, 1. / 3.),
           c0,

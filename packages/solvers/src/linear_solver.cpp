@@ -33,14 +33,12 @@ int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solutio
   if (!std::isfinite(norm[0])) throw base::ComputationError("the residual is not a finite number");
 
   const double relative_tolerance = target / norm[0];
-  prepare();
-  Outcome outcome = iterate(right_hand_side, solution, relative_tolerance);
-  if (!outcome.converged) {
+  Outcome outcome = attempt(right_hand_side, solution, relative_tolerance);
+  while (!outcome.converged && smoothing_ != Smoothing::one_level) {
     condition_ = Condition::missing;
-    smoothing_ = Smoothing::robust;
-    prepare();
+    smoothing_ = smoothing_ == Smoothing::fast ? Smoothing::robust : Smoothing::one_level;
     solution.putScalar(0.);
-    outcome = iterate(right_hand_side, solution, relative_tolerance);
+    outcome = attempt(right_hand_side, solution, relative_tolerance);
   }
   if (!outcome.converged) {
     throw base::ComputationError(
@@ -50,6 +48,16 @@ int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solutio
   }
   judge(outcome.iterations, relative_tolerance);
   return outcome.iterations;
+}
+
+LinearSolver::Outcome LinearSolver::attempt(const MultiVector& right_hand_side, MultiVector& solution,
+                                            double relative_tolerance) {
+  try {
+    prepare();
+  } catch (const base::ComputationError& error) {
+    return {false, 0, error.what()};
+  }
+  return iterate(right_hand_side, solution, relative_tolerance);
 }
 
 void LinearSolver::prepare() {

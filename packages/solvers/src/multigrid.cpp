@@ -32,6 +32,11 @@ Teuchos::ParameterList default_parameters(Multigrid::Smoothing smoothing) {
   auto& coarse = list.sublist("coarse: params");
   coarse.set("relaxation: type", "Symmetric Gauss-Seidel");
   coarse.set("relaxation: sweeps", 20);
+  if (smoothing == Multigrid::Smoothing::one_level) {
+    list.set("max levels", 1);
+    // Between ranks the sweeps are Jacobi's: one of them is positive definite for sure, several are not.
+    coarse.set("relaxation: sweeps", 1);
+  }
   list.set("reuse: type", "RP");
   return list;
 }

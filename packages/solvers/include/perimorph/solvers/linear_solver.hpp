@@ -30,8 +30,8 @@ class LinearSolver {
   void forget();
 
   /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Returns the iterations. Collective.
-  /// If the iteration breaks down or does not converge, it is tried again once with a rebuilt, robust preconditioner.
-  /// @throws ComputationError if that fails too.
+  /// If the iteration breaks down or does not converge, it is tried again with a rebuilt, robust preconditioner, and
+  /// then with one of a single level. @throws ComputationError if that fails too.
   int solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 
  private:
@@ -54,6 +54,7 @@ class LinearSolver {
     int iterations;
     std::string trouble;
   };
+  Outcome attempt(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   Outcome iterate(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   double fresh_rate_ = 0.;  ///< iterations per decade of reduction with the preconditioner as built
   double excess_ = 0.;      ///< iterations since the last set-up, beyond those at the fresh rate

@@ -27,8 +27,10 @@ NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Poi
 /// wrong on more than one rank). Made for one matrix pattern.
 class Multigrid {
  public:
-  /// Chebyshev polynomials (fast), or symmetric Gauss-Seidel (robust), which cannot make the preconditioner indefinite.
-  enum class Smoothing { fast, robust };
+  /// Chebyshev polynomials (fast); symmetric Gauss-Seidel (robust), which cannot make the preconditioner indefinite
+  /// unless the coarse matrices are rounding errors, as in a body that is all floating pieces; the same without coarse
+  /// levels.
+  enum class Smoothing { fast, robust, one_level };
 
   /// Sets it up. @param overrides parameters of MueLu that replace or add to ours. Collective.
   Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space,
