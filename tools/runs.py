@@ -199,6 +199,7 @@ class ExodusFile:
         self.name = name
         try:
             self.data = netCDF4.Dataset(name)
+            self.data.set_auto_mask(False)
         except OSError as error:
             fail(f"{name}: not readable as an Exodus file: {error}")
         self.times = [float(time) for time in self.data["time_whole"][:]] if "time_whole" in self.data.variables else []
@@ -209,7 +210,6 @@ class ExodusFile:
 
         if variable not in self.data.variables:
             return []
-        self.data[variable].set_auto_mask(False)
         return [str(text) for text in netCDF4.chartostring(self.data[variable][:]).ravel()]
 
     def names(self, variable):

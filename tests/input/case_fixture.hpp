@@ -9,6 +9,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/case.hpp"
+#include "support/temporary_directory.hpp"
 
 // A valid case. The tests replace a piece of it, and count lines from its first.
 inline const std::string valid = R"xml(<ParameterList name="plate">
@@ -90,13 +91,6 @@ inline std::string replaced(std::string text, const std::string& piece, const st
 /// A folder of its own for each test, with the case as plate.xml.
 class CaseFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "perimorph-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string file() const { return folder_ / "plate.xml"; }
 
   perimorph::fracture::Case read(const std::string& text, const std::vector<std::string>& overrides = {}) const {
@@ -118,5 +112,6 @@ class CaseFile : public testing::Test {
     return error_of_file(file(), overrides);
   }
 
-  std::filesystem::path folder_;
+  perimorph::tests::TemporaryDirectory directory_;
+  const std::filesystem::path& folder_ = directory_.path();
 };

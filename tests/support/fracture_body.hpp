@@ -69,7 +69,8 @@ struct SpecimenBody {
         problem(make_problem(specimen)),
         body(comm, mesh, problem, make_options(specimen), profile) {}
 
-  /// One increment of the adaptive loop (WHL19, Fig. 5), as in fracture::run_adaptive_loop. Returns the solves.
+  /// One increment of the adaptive loop (WHL19, Fig. 5), as in fracture::run_adaptive_loop but
+  /// with one tolerance. Returns the solves.
   int advance(double load_factor) {
     int solves = 0;
     body.apply_load(load_factor);

@@ -53,7 +53,6 @@ void add_divergence(const double* gradients, const std::array<Lanes, base::n_voi
 
 template <int dim>
 LocalForces<dim>::LocalForces(const CoupledModel<dim>& model) : e0_(model.elasticity.e0()) {
-  const auto is_filled = [](const Group& g, int n) { return g.nodes.size() % (n * n_lanes) == 0; };
   std::vector<std::size_t> n_elements;  // in each group
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (!model.bonds.is_active(e) || model.elasticity.is_zero(e)) continue;
@@ -62,7 +61,7 @@ LocalForces<dim>::LocalForces(const CoupledModel<dim>& model) : e0_(model.elasti
     n_elements.resize(groups_.size(), 0);
     const std::size_t position = n_elements[&g - groups_.data()]++;
     const std::size_t four = position / n_lanes, lane = position % n_lanes;
-    if (lane == 0 && is_filled(g, n)) {
+    if (lane == 0) {
       g.nodes.resize(g.nodes.size() + n * n_lanes, model.dofs.nodes_of(e)[0]);
       g.gradients.resize(g.gradients.size() + n_points * n * dim * n_lanes, 0.);
       if (g.has_own_stiffness) g.stiffness.resize(g.stiffness.size() + n_points * n_moduli<dim> * n_lanes, 0.);

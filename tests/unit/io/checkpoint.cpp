@@ -10,7 +10,7 @@
 
 #include "limited_file_size.hpp"
 #include "perimorph/base/errors.hpp"
-#include "temporary_directory.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace perimorph {
 namespace {
@@ -31,7 +31,7 @@ Checkpoint example() {
 }
 
 TEST(CheckpointFolder, WhatWasWrittenReadsBackToTheLastBit) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const CheckpointFolder folder(directory.file(""));
   folder.write(12, example());
   const Checkpoint read = folder.read(12);
@@ -41,7 +41,7 @@ TEST(CheckpointFolder, WhatWasWrittenReadsBackToTheLastBit) {
 }
 
 TEST(CheckpointFolder, TheLastTwoAreKeptAndNothingElse) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const CheckpointFolder folder(directory.file(""));
   for (const int increment : {1, 5, 999999, 1000000}) folder.write(increment, example());
   EXPECT_THAT(folder.increments(), ElementsAre(999999, 1000000));
@@ -52,7 +52,7 @@ TEST(CheckpointFolder, TheLastTwoAreKeptAndNothingElse) {
 }
 
 TEST(CheckpointFolder, ADamagedFileIsToldFromASoundOne) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const CheckpointFolder folder(directory.file(""));
   folder.write(1, example());
   const auto size = std::filesystem::file_size(folder.file(1));
@@ -72,11 +72,11 @@ TEST(CheckpointFolder, ADamagedFileIsToldFromASoundOne) {
 }
 
 TEST(CheckpointFolder, AFullDiskStopsTheComputationAndSparesTheOlderOne) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const CheckpointFolder folder(directory.file(""));
   folder.write(1, example());
   {
-    const test::LimitedFileSize limit(10000);
+    const tests::LimitedFileSize limit(10000);
     EXPECT_THROW(folder.write(2, example()), base::ComputationError);
   }
   EXPECT_THAT(folder.increments(), ElementsAre(1));

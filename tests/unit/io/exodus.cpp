@@ -11,7 +11,7 @@
 #include "exodus_file.hpp"
 #include "limited_file_size.hpp"
 #include "perimorph/base/errors.hpp"
-#include "temporary_directory.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace perimorph {
 namespace {
@@ -91,7 +91,7 @@ ExodusStep step_of(const Plate& plate, const ExodusModel<2>& model, double time,
 }
 
 TEST(ExodusSeries, AnyChangeOfTopologyMakesAFileThatReadsBackAsItWasWritten) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
   const std::vector<Plate> plates = {{12, 7, 0}, {12, 7, 4}, {12, 7, 9}};
   {
@@ -108,7 +108,7 @@ TEST(ExodusSeries, AnyChangeOfTopologyMakesAFileThatReadsBackAsItWasWritten) {
 
   double time = 0.;
   for (std::size_t k = 0; k < plates.size(); ++k, time += 2.) {
-    const test::ExodusFile file(k == 0 ? first : first + "-s000" + std::to_string(k + 1));
+    const tests::ExodusFile file(k == 0 ? first : first + "-s000" + std::to_string(k + 1));
     const ExodusModel<2> model = model_of(plates[k]);
     const int n_nodes = static_cast<int>(model.coordinates.size());
     EXPECT_STREQ(file.sizes.title, "A plate");
@@ -144,12 +144,12 @@ TEST(ExodusSeries, AnyChangeOfTopologyMakesAFileThatReadsBackAsItWasWritten) {
 }
 
 TEST(ExodusSeries, NamesIdsAndSetsReadBackOneBased) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
   const ExodusModel<2> model = model_of({2, 3, 1});
   ExodusSeries<2>(first, "", plate_names, {}).start(model);
 
-  const test::ExodusFile file(first);
+  const tests::ExodusFile file(first);
   EXPECT_THAT(file.names(EX_ELEM_BLOCK), ElementsAre("plate_MORPH", "plate_DGFE"));
   EXPECT_THAT(file.names(EX_NODE_SET), ElementsAre("nowhere", "top"));
   EXPECT_THAT(file.names(EX_SIDE_SET), ElementsAre("bottom"));
@@ -166,7 +166,7 @@ TEST(ExodusSeries, NamesIdsAndSetsReadBackOneBased) {
 }
 
 TEST(ExodusSeries, BlocksHaveTheIdsGivenAndTheirValuesGoWithThem) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
   const Plate plate{2, 3, 1};
   ExodusModel<2> model = model_of(plate);
@@ -178,14 +178,14 @@ TEST(ExodusSeries, BlocksHaveTheIdsGivenAndTheirValuesGoWithThem) {
     series.write(step_of(plate, model, 1., 0.));
   }
 
-  const test::ExodusFile file(first);
+  const tests::ExodusFile file(first);
   EXPECT_EQ(file.topology(14), "QUAD4");
   EXPECT_THAT(file.connectivity(14), ElementsAre(13, 14, 15, 16));
   EXPECT_THAT(file.values(1, EX_ELEM_BLOCK, 2, 14, 1), ElementsAre(0.5));
 }
 
 TEST(ExodusSeries, AThreeDimensionalModelReadsBack) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("cube.e");
   ExodusModel<3> model;
   for (int k = 0; k <= 2; ++k) {
@@ -201,7 +201,7 @@ TEST(ExodusSeries, AThreeDimensionalModelReadsBack) {
     series.write({0.5, {}, {{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2}}, {{0.25, 0.75}}});
   }
 
-  const test::ExodusFile file(first);
+  const tests::ExodusFile file(first);
   EXPECT_EQ(file.sizes.num_dim, 3);
   EXPECT_THAT(file.coordinates()[2], ElementsAre(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2));
   EXPECT_EQ(file.topology(2), "HEX8");
@@ -214,32 +214,32 @@ TEST(ExodusSeries, AThreeDimensionalModelReadsBack) {
 }
 
 TEST(ExodusSeries, LongNamesAreKeptUpToTheirLimit) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e"), name(64, 'n');
   ExodusModel<2> model = model_of({2, 3, 0});
   model.blocks[0].name = name;
   ExodusSeries<2>(first, "", {{name}, {}, {}}, {}).start(model);
 
-  const test::ExodusFile file(first);
+  const tests::ExodusFile file(first);
   EXPECT_THAT(file.names(EX_ELEM_BLOCK), ElementsAre(name));
   EXPECT_THAT(file.variables(EX_GLOBAL), ElementsAre(name));
 }
 
 TEST(ExodusSeries, TheCaseIsInTheInfoRecordsWithLongLinesSplitBetweenCharacters) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
   const std::string a78(78, 'a'), b79(79, 'b');
   ExodusSeries<2>(first, std::string(100, 't'), plate_names, {"short", "", a78 + "δ", b79 + b79})
       .start(model_of({2, 3, 0}));
 
-  const test::ExodusFile file(first);
+  const tests::ExodusFile file(first);
   EXPECT_THAT(file.information(), ElementsAre("short", "", a78, "δ", b79, b79));
   EXPECT_EQ(file.program(), "perimorph");
   EXPECT_EQ(file.sizes.title, std::string(80, 't'));
 }
 
 TEST(ExodusSeries, EveryStepIsReadableBeforeTheFileIsClosed) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
   const Plate plate{2, 3, 1};
   const ExodusModel<2> model = model_of(plate);
@@ -249,7 +249,7 @@ TEST(ExodusSeries, EveryStepIsReadableBeforeTheFileIsClosed) {
     const ExodusStep step = step_of(plate, model, time, time);
     series.write(step);
     std::filesystem::copy_file(first, directory.file("copy.e"), std::filesystem::copy_options::overwrite_existing);
-    const test::ExodusFile copy(directory.file("copy.e"));
+    const tests::ExodusFile copy(directory.file("copy.e"));
     EXPECT_EQ(copy.times().back(), time);
     const int n_nodes = static_cast<int>(model.coordinates.size());
     EXPECT_EQ(copy.values(static_cast<int>(time), EX_NODAL, 2, 1, n_nodes), step.nodal[1]);
@@ -257,7 +257,7 @@ TEST(ExodusSeries, EveryStepIsReadableBeforeTheFileIsClosed) {
 }
 
 TEST(ExodusSeries, LaterFilesOfAnEarlierRunAreRemoved) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
   for (const auto* left_over : {"case.e", "case.e-s0002", "case.e-s0003", "other.e-s0002"}) {
     std::ofstream(directory.file(left_over)) << "old";
@@ -279,7 +279,7 @@ std::string message_of(Work work) {
 }
 
 TEST(ExodusSeries, AnUnwritablePathIsAnErrorThatNamesTheFile) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("absent/case.e");
   ExodusSeries<2> series(first, "", plate_names, {});
   const std::string message = message_of([&] { series.start(model_of({2, 3, 0})); });
@@ -287,7 +287,7 @@ TEST(ExodusSeries, AnUnwritablePathIsAnErrorThatNamesTheFile) {
 }
 
 TEST(ExodusSeries, ADiskThatFillsUpStopsTheComputationAndKeepsTheStepsWritten) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
   const Plate plate{60, 61, 0};
   const ExodusModel<2> model = model_of(plate);
@@ -296,24 +296,24 @@ TEST(ExodusSeries, ADiskThatFillsUpStopsTheComputationAndKeepsTheStepsWritten) {
     ExodusSeries<2> series(first, "", plate_names, {});
     series.start(model);
     series.write(step_of(plate, model, 1., 0.));
-    const test::LimitedFileSize limit(std::filesystem::file_size(first) + 1000);
+    const tests::LimitedFileSize limit(std::filesystem::file_size(first) + 1000);
     message = message_of([&] { series.write(step_of(plate, model, 2., 0.)); });
   }
   EXPECT_THAT(message, AllOf(StartsWith(first + ": the "), HasSubstr(" cannot be written: File too large")));
-  EXPECT_EQ(test::ExodusFile(first).times().front(), 1.);
+  EXPECT_EQ(tests::ExodusFile(first).times().front(), 1.);
 }
 
 TEST(ExodusSeries, ADiskThatIsFullAtANewTopologyStopsTheComputation) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
   ExodusSeries<2> series(first, "", plate_names, {});
-  const test::LimitedFileSize limit(1000);
+  const tests::LimitedFileSize limit(1000);
   const std::string message = message_of([&] { series.start(model_of({60, 61, 0})); });
   EXPECT_THAT(message, AllOf(StartsWith(first + ": the "), HasSubstr(" cannot be written: ")));
 }
 
 TEST(ExodusSeries, AStepOfTheWrongSizeOrWithoutAModelIsABug) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const Plate plate{2, 3, 0};
   const ExodusModel<2> model = model_of(plate);
   ExodusStep step = step_of(plate, model, 1., 0.);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace perimorph::test {
+namespace perimorph::tests {
 
 /// Reads an Exodus file by the Exodus library's own functions; sizes come from the file, never from the writer.
 class ExodusFile {
@@ -131,4 +131,4 @@ class ExodusFile {
   int id_ = -1;
 };
 
-}  // namespace perimorph::test
+}  // namespace perimorph::tests

@@ -8,7 +8,7 @@
 
 #include "limited_file_size.hpp"
 #include "perimorph/base/errors.hpp"
-#include "temporary_directory.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace perimorph {
 namespace {
@@ -35,7 +35,7 @@ std::string message_of(Work work) {
 }
 
 TEST(History, WritesAHeaderAndOneRowPerIncrement) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string file = directory.file("history.csv");
 
   History history(file, {"increment", "load_factor", "reaction_top_y"});
@@ -49,7 +49,7 @@ TEST(History, WritesAHeaderAndOneRowPerIncrement) {
 }
 
 TEST(History, WritesIntegralValuesWithoutExponentAndWithoutASignOfZero) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string file = directory.file("history.csv");
 
   History history(file, {"a", "b", "c", "d"});
@@ -59,7 +59,7 @@ TEST(History, WritesIntegralValuesWithoutExponentAndWithoutASignOfZero) {
 }
 
 TEST(History, EveryRowIsOnDiskAtOnce) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string file = directory.file("history.csv");
   History history(file, {"increment"});
   EXPECT_EQ(text_of(file), "increment\n");
@@ -68,14 +68,14 @@ TEST(History, EveryRowIsOnDiskAtOnce) {
 }
 
 TEST(History, ANameWithACommaStaysOneColumn) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string file = directory.file("history.csv");
   const History history(file, {"increment", "reaction_top, \"left\"_y"});
   EXPECT_EQ(text_of(file), "increment,\"reaction_top, \"\"left\"\"_y\"\n");
 }
 
 TEST(History, AnUnwritablePathIsTheUsersMistakeAndNamesTheFile) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string file = directory.file("absent/history.csv");
   const std::string message = message_of<base::UserError>([&] { History(file, {"increment"}); });
   EXPECT_EQ(message, file +
@@ -84,24 +84,24 @@ TEST(History, AnUnwritablePathIsTheUsersMistakeAndNamesTheFile) {
 }
 
 TEST(History, AFullDiskAtTheStartIsTheUsersMistake) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string file = directory.file("history.csv");
-  const test::LimitedFileSize limit(4);
+  const tests::LimitedFileSize limit(4);
   const std::string message = message_of<base::UserError>([&] { History(file, {"increment"}); });
   EXPECT_THAT(message, AllOf(StartsWith(file + ": "), HasSubstr("File too large")));
 }
 
 TEST(History, ADiskThatFillsUpLaterStopsTheComputation) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   const std::string file = directory.file("history.csv");
   History history(file, {"increment"});
-  const test::LimitedFileSize limit(10);
+  const tests::LimitedFileSize limit(10);
   const std::string message = message_of<base::ComputationError>([&] { history.write({1}), history.write({2}); });
   EXPECT_EQ(message, file + ": the history cannot be written: File too large");
 }
 
 TEST(History, ARowOfTheWrongLengthIsABug) {
-  const test::TemporaryDirectory directory;
+  const tests::TemporaryDirectory directory;
   History history(directory.file("history.csv"), {"increment", "load_factor"});
   EXPECT_THROW(history.write({1}), base::Bug);
 }

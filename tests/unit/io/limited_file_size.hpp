@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-namespace perimorph::test {
+namespace perimorph::tests {
 
 /// While it lives, no file of this process can grow past a size: writing fails as on a full disk.
 class LimitedFileSize {
@@ -27,4 +27,4 @@ class LimitedFileSize {
   void (*old_action_)(int);
 };
 
-}  // namespace perimorph::test
+}  // namespace perimorph::tests

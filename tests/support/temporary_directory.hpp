@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace perimorph::test {
+namespace perimorph::tests {
 
 /// A new directory that is removed with everything in it. With PERIMORPH_KEEP=DIRECTORY in the environment that one is
 /// used instead and kept, so that the files can be looked at.
@@ -27,6 +27,7 @@ class TemporaryDirectory {
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
+  const std::filesystem::path& path() const { return path_; }
   std::string file(const std::string& name) const { return (path_ / name).string(); }
 
  private:
@@ -34,4 +35,4 @@ class TemporaryDirectory {
   bool keep_ = false;
 };
 
-}  // namespace perimorph::test
+}  // namespace perimorph::tests
