@@ -11,24 +11,30 @@ CLASSES = [("0", "FE", (0.78, 0.83, 0.88)), ("1", "MORPH", (0.96, 0.72, 0.32)), 
 DAMAGED = 0.3  # beside a straight crack elements lose about 40 % of their bonds
 
 
-def open_series(files):
-    """All files as one series. Variables keep their names (no merged vectors), and blocks stay apart."""
-    reader = pv.IOSSReader(registrationName="series", FileName=files)
+SURFACE = "broken_surface"  # the side set of crack faces
+
+
+def open_series(files, name, side_sets):
+    """All files as one series, its blocks, or side sets alone. Variables keep their names (no merged vectors), and blocks
+    stay apart."""
+    reader = pv.IOSSReader(registrationName=name, FileName=files)
     reader.ScanForRelatedFiles = 0
     reader.ApplyDisplacements = 0
     reader.FieldSuffixSeparator = "|"
     reader.UpdatePipelineInformation()
-    reader.NodeSets, reader.SideSets = [], []
+    reader.NodeSets, reader.SideSets = [], side_sets
+    if side_sets:
+        reader.ElementBlocks = []
     reader.UpdatePipeline()
     return reader
 
 
-def warped(reader, factor):
+def warped(reader, factor, name):
     axes = [axis for axis in "xyz" if f"displacement_{axis}" in reader.PointData.keys()]
     terms = [f"{axis.replace('x', 'i').replace('y', 'j').replace('z', 'k')}Hat*displacement_{axis}" for axis in axes]
-    vector = pv.Calculator(registrationName="displacement", Input=reader, AttributeType="Point Data",
+    vector = pv.Calculator(registrationName=f"displacement of {name}", Input=reader, AttributeType="Point Data",
                            ResultArrayName="displacement", Function=" + ".join(terms))
-    return pv.WarpByVector(registrationName="warped", Input=vector, Vectors=["POINTS", "displacement"], ScaleFactor=factor)
+    return pv.WarpByVector(registrationName=name, Input=vector, Vectors=["POINTS", "displacement"], ScaleFactor=factor)
 
 
 def colour_by_class(display, view):
@@ -67,18 +73,22 @@ def hide_ready(part, view):
 
 def main():
     view = pv.GetActiveViewOrCreate("RenderView")
-    reader = open_series(os.environ["PERIMORPH_FILES"].split("\n"))
+    files, warp = os.environ["PERIMORPH_FILES"].split("\n"), float(os.environ["PERIMORPH_WARP"])
+    reader = open_series(files, "series", [])
     last = reader.TimestepValues[-1]
     scene = pv.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.AnimationTime = view.ViewTime = last
-    body = warped(reader, float(os.environ["PERIMORPH_WARP"]))
+    body = warped(reader, warp, "warped")
     body.UpdatePipeline(last)
     display = pv.Show(body, view)
     colour_by_class(display, view)
     for part in (damaged(body), slice_of(body)):
         part.UpdatePipeline(last)
         hide_ready(part, view)
+    surface = warped(open_series(files, "crack faces", [SURFACE]), warp, "broken surface")
+    pv.Show(surface, view).ColorArrayName = ["POINTS", ""]
+    pv.Hide(surface, view)
     scene.AnimationTime = last  # showing parts may set it back
     pv.SetActiveSource(body)
     low, high = reader.GetDataInformation().GetBounds()[4:6]

@@ -38,6 +38,33 @@ TEST_F(CaseFile, ValuesArriveInTheCase) {
   EXPECT_EQ(result.muelu.get<int>("coarse: max size"), 50);
 }
 
+TEST_F(CaseFile, ValuesOfThreeDimensionsArriveInTheCase) {
+  const std::string disc = R"xml(<ParameterList name="Pre-Cracks"><ParameterList name="penny">
+      <Parameter name="Shape" type="string" value="Disc"/>
+      <Parameter name="Center" type="Array(double)" value="{1, 2, 3}"/>
+      <Parameter name="Normal" type="Array(double)" value="{0, 2, 0}"/>
+      <Parameter name="Radius" type="double" value="4"/></ParameterList>)xml";
+  const Case result =
+      read(replaced(valid_in_3d(), R"xml(<ParameterList name="Pre-Cracks">)xml", disc),
+           {"Morphing/Seeds/front/Shape=Cylinder", "Morphing/Seeds/front/Start={0, 0, 0}",
+            "Morphing/Seeds/front/End={0, 0, 9}", "Morphing/Seeds/front/Inner Radius=2",
+            "Morphing/Seeds/front/Outer Radius=3", "Boundary Conditions/Displacements/hold/Component=z"});
+
+  EXPECT_EQ(result.dimension, 3);
+  EXPECT_EQ(result.elastic_model, perimorph::fracture::ElasticModel::three_dimensional);
+  EXPECT_EQ(result.poissons_ratio, 0.25);
+  EXPECT_EQ(result.seeds[0].shape, perimorph::fracture::SeedShape::ball);
+  EXPECT_EQ(result.seeds[2].shape, perimorph::fracture::SeedShape::cylinder);
+  EXPECT_THAT(result.seeds[2].end, ElementsAre(0., 0., 9.));
+  EXPECT_EQ(result.pre_cracks[0].shape, perimorph::fracture::PreCrackShape::disc);
+  EXPECT_THAT(result.pre_cracks[0].normal, ElementsAre(0., 2., 0.));
+  EXPECT_EQ(result.pre_cracks[0].radius, 4.);
+  EXPECT_EQ(result.pre_cracks[1].shape, perimorph::fracture::PreCrackShape::polygon);
+  EXPECT_EQ(result.pre_cracks[1].points.size(), 12u);
+  EXPECT_EQ(result.displacements[0].component, 2);
+  EXPECT_THAT(result.body_force_constant, ElementsAre(0., 0., 0.));
+}
+
 TEST_F(CaseFile, DefaultsAreFilledIn) {
   const Case result = read(valid);
 
@@ -224,7 +251,8 @@ TEST(CaseSchema, ReferenceSaysTypeDefaultRangeAndUnit) {
               HasSubstr("/Material/Young's Modulus\n    double; required, such as 30000; allowed is a number > 0\n"
                         "    E [stress]."));
   EXPECT_THAT(text, HasSubstr("/Solver/Tolerance\n    double; default 1e-06; allowed is a number > 0 and < 1\n"));
-  EXPECT_THAT(text, HasSubstr("/Morphing/Seeds/*/Shape\n    string; default Circle; allowed is \"Circle\" or \"Box\""));
+  EXPECT_THAT(text,
+              HasSubstr("/Morphing/Seeds/*/Shape\n    string; default Circle; allowed is \"Circle\" or \"Sphere\""));
 }
 
 TEST(CaseSchema, WrongDefaultIsRefusedByTeuchosToo) {

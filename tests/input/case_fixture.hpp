@@ -88,6 +88,28 @@ inline std::string replaced(std::string text, const std::string& piece, const st
   return at == std::string::npos ? text : text.replace(at, piece.size(), by);
 }
 
+/// The same in three dimensions.
+inline std::string valid_in_3d() {
+  std::string text = valid;
+  for (const auto& [piece, by] : std::vector<std::pair<std::string, std::string>>{
+           {R"xml(<ParameterList name="Mesh">)xml",
+            R"xml(<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">)xml"},
+           {R"xml(value="0.3333")xml", R"xml(value="0.25")xml"},
+           {"Plane Stress", "Three-Dimensional"},
+           {R"xml(<Parameter name="Center" type="Array(double)" value="{100, 10}"/>)xml",
+            R"xml(<Parameter name="Shape" type="string" value="Sphere"/>)xml"
+            R"xml(<Parameter name="Center" type="Array(double)" value="{100, 10, 0}"/>)xml"},
+           {"{0, 0}", "{0, 0, 0}"},
+           {"{5, 1}", "{5, 1, 1}"},
+           {R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml",
+            R"xml(<Parameter name="Shape" type="string" value="Polygon"/>)xml"
+            R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 0, 5, 0, 0, 5, 0, 2, 0, 0, 2}"/>)xml"},
+           {"{0, -1}", "{0, -1, 0}"}}) {
+    text = replaced(text, piece, by);
+  }
+  return text;
+}
+
 /// A folder of its own for each test, with the case as plate.xml.
 class CaseFile : public testing::Test {
  protected:

@@ -77,17 +77,17 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Missing, OneMistake,
-    testing::Values(Mistake{"Parameter", "<Parameter " + horizon + "/>", "",
-                            ":11: /Peridynamics/Horizon: missing; needed is a number > 0"},
-                    Mistake{
-                        "ParameterOfAnEntry", R"xml(<Parameter name="Group" type="string" value="left"/>)xml", "",
-                        ":37: /Boundary Conditions/Displacements/hold/Group: missing; needed is the name of a group"},
-                    Mistake{"Component", R"xml(<Parameter name="Component" type="string" value="x"/>)xml", "",
-                            R"xml(/hold/Component: missing; needed is "x" or "y" or "z")xml"},
-                    Mistake{"Section", "<Parameter " + increments + "/>", "",
-                            ":54: /Loading/Increments: missing; needed is a whole number >= 1"},
-                    Mistake{"Points", R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml",
-                            "", ":31: /Pre-Cracks/slit/Points: missing; needed is {x1, y1, x2, y2, ...}"}),
+    testing::Values(
+        Mistake{"Parameter", "<Parameter " + horizon + "/>", "",
+                ":11: /Peridynamics/Horizon: missing; needed is a number > 0"},
+        Mistake{"ParameterOfAnEntry", R"xml(<Parameter name="Group" type="string" value="left"/>)xml", "",
+                ":37: /Boundary Conditions/Displacements/hold/Group: missing; needed is the name of a group"},
+        Mistake{"Component", R"xml(<Parameter name="Component" type="string" value="x"/>)xml", "",
+                R"xml(/hold/Component: missing; needed is "x" or "y" or "z")xml"},
+        Mistake{"Section", "<Parameter " + increments + "/>", "",
+                ":54: /Loading/Increments: missing; needed is a whole number >= 1"},
+        Mistake{"Points", R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml", "",
+                ":31: /Pre-Cracks/slit/Points: missing; a pre-crack with \"Shape\" \"Polyline\" needs it"}),
     named);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -154,19 +154,17 @@ INSTANTIATE_TEST_SUITE_P(
                 R"xml(/Solver/Tolerance: found "1"; allowed is a number > 0 and < 1)xml"},
         Mistake{"RebuildGrowth", solver, solver + R"xml(<Parameter name="Renewal Cost" type="double" value="-1"/>)xml",
                 R"xml(/Solver/Renewal Cost: found "-1"; allowed is a number >= 0)xml"},
-        Mistake{"ThreeDimensions", R"xml(  <ParameterList name="Mesh">)xml",
-                R"xml(<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">)xml",
-                R"xml(:2: /Dimension: found "3"; allowed is 2: three dimensions are not built yet)xml"},
+        Mistake{"FourDimensions", R"xml(  <ParameterList name="Mesh">)xml",
+                R"xml(<Parameter name="Dimension" type="int" value="4"/><ParameterList name="Mesh">)xml",
+                R"xml(:2: /Dimension: found "4"; allowed is 2 or 3)xml"},
         Mistake{"MeshFile", "plate.geo", "plate.stl",
                 R"xml(:3: /Mesh/File: found "plate.stl"; allowed is the name of a file that ends in ".geo" or )xml"},
         Mistake{"EmptyGroup", R"xml(value="left"/>)xml", R"xml(value=""/>)xml",
                 R"xml(/Displacements/hold/Group: found ""; allowed is the name of a group)xml"},
-        Mistake{"Choice", elastic_model, R"xml(name="Elastic Model" type="string" value="plane stres")xml",
-                R"xml(:8: /Material/Elastic Model: found "plane stres"; allowed is "Plane Stress" or "Plane Strain")xml"
-                R"xml( - did you mean "Plane Stress"?)xml"},
-        Mistake{"ModelOfThreeDimensions", elastic_model,
-                R"xml(name="Elastic Model" type="string" value="Three-Dimensional")xml",
-                R"xml(found "Three-Dimensional"; allowed is "Plane Stress" or "Plane Strain")xml"},
+        Mistake{
+            "Choice", elastic_model, R"xml(name="Elastic Model" type="string" value="plane stres")xml",
+            R"xml(:8: /Material/Elastic Model: found "plane stres"; allowed is "Plane Stress" or "Plane Strain" or )xml"
+            R"xml("Three-Dimensional" - did you mean "Plane Stress"?)xml"},
         Mistake{"Micromodulus", "<Parameter " + horizon,
                 R"xml(<Parameter name="Micromodulus" type="string" value="Constant"/><Parameter )xml" + horizon,
                 R"xml(/Peridynamics/Micromodulus: found "Constant"; allowed is "Exponential")xml"},
@@ -203,6 +201,16 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             "OfAnotherShape", box, box + R"xml(<Parameter name="Center" type="Array(double)" value="{0, 0}"/>)xml",
             R"xml(:23: /Morphing/Seeds/bar/Center: found in a seed with "Shape" "Box"; allowed is only what describes)xml"},
+        Mistake{
+            "ModelOfThreeDimensions", R"xml(value="0.3333"/>
+    <Parameter name="Elastic Model" type="string" value="Plane Stress"/>)xml",
+            R"xml(value="0.25"/>
+    <Parameter name="Elastic Model" type="string" value="Three-Dimensional"/>)xml",
+            R"xml(:8: /Material/Elastic Model: found "Three-Dimensional"; allowed is "Plane Stress" or "Plane Str)xml"},
+        Mistake{
+            "Sphere", tip, R"xml(<Parameter name="Shape" type="string" value="Sphere"/>)xml" + tip,
+            R"xml(:18: /Morphing/Seeds/tip/Shape: found "Sphere"; allowed is "Circle" or "Box" or "Everything" in )xml"
+            "two dimensions (/Dimension)"},
         Mistake{"CenterOfThree", "{100, 10}", "{100, 10, 0}",
                 ":18: /Morphing/Seeds/tip/Center: found {100, 10, 0}; allowed are 2 numbers, one per dimension"},
         Mistake{"Corners", "{5, 1}", "{5, 0}",
@@ -229,6 +237,73 @@ INSTANTIATE_TEST_SUITE_P(
                 ":47: /Boundary Conditions/Body Force/Rate: found {1, 2, 3}; allowed are 2 numbers"},
         Mistake{"ReactionTwice", "{left, right}", "{left, left}",
                 R"xml(:63: /Output/Reactions: found "left" twice; allowed is each group once)xml"}),
+    named);
+
+class OneMistakeIn3d : public OneMistake {};
+
+TEST_P(OneMistakeIn3d, IsNamedWithFileLineAndPath) {
+  const std::string message = error(replaced(valid_in_3d(), GetParam().piece, GetParam().by));
+
+  EXPECT_THAT(message, StartsWith("1 mistake in " + file() + "\n" + file() + ":"));
+  EXPECT_THAT(message, HasSubstr(GetParam().text));
+}
+
+const std::string polygon = "{0, 0, 0, 5, 0, 0, 5, 0, 2, 0, 0, 2}";
+const std::string not_a_polygon = ":32: /Pre-Cracks/slit/Points: found {";
+
+INSTANTIATE_TEST_SUITE_P(
+    InThreeDimensions, OneMistakeIn3d,
+    testing::Values(
+        Mistake{
+            "PlaneModel", R"xml(value="0.25"/>
+    <Parameter name="Elastic Model" type="string" value="Three-Dimensional"/>)xml",
+            R"xml(value="0.3333"/>
+    <Parameter name="Elastic Model" type="string" value="Plane Stress"/>)xml",
+            R"xml(:8: /Material/Elastic Model: found "Plane Stress"; allowed is "Three-Dimensional" in three dim)xml"},
+        Mistake{"PoissonsRatio", R"xml(value="0.25")xml", R"xml(value="0.3")xml",
+                R"xml(:7: /Material/Poisson's Ratio: found 0.3; allowed is 0.25 (1/4) for "Three-Dimensional")xml"},
+        Mistake{
+            "Circle", R"xml(value="Sphere")xml", R"xml(value="Circle")xml",
+            R"xml(:18: /Morphing/Seeds/tip/Shape: found "Circle"; allowed is "Sphere" or "Cylinder" or "Box" or )xml"
+            R"xml("Everything" in three dimensions (/Dimension))xml"},
+        Mistake{"CircleByDefault", R"xml(<Parameter name="Shape" type="string" value="Sphere"/>)xml", "",
+                R"xml(:17: /Morphing/Seeds/tip/Shape: found "Circle"; allowed is "Sphere")xml"},
+        Mistake{"CenterOfTwo", "{100, 10, 0}", "{100, 10}",
+                ":18: /Morphing/Seeds/tip/Center: found {100, 10}; allowed are 3 numbers, one per dimension"},
+        Mistake{
+            "CylinderWithoutLength",
+            R"xml(value="Sphere"/><Parameter name="Center" type="Array(double)" value="{100, 10, 0}"/>)xml",
+            R"xml(value="Cylinder"/><Parameter name="Start" type="Array(double)" value="{1, 2, 3}"/>
+                      <Parameter name="End" type="Array(double)" value="{1, 2, 3}"/>)xml",
+            R"xml(:19: /Morphing/Seeds/tip/End: found {1, 2, 3}, which is "Start" too; allowed is an axis that)xml"},
+        Mistake{"Polyline", R"xml(value="Polygon")xml", R"xml(value="Polyline")xml",
+                R"xml(:32: /Pre-Cracks/slit/Shape: found "Polyline"; allowed is "Polygon" or "Disc" in three)xml"},
+        Mistake{"TwoPoints", polygon, "{0, 0, 0, 5, 0, 0}",
+                "found 6 numbers; allowed are three points or more, {x1, y1, z1, x2, ...}"},
+        Mistake{"PointsOfFourNumbers", polygon, "{0, 0, 0, 5, 0, 0, 5, 0, 2, 0}",
+                "found 10 numbers; allowed are three"},
+        Mistake{"LastPointIsTheFirst", polygon, "{0, 0, 0, 5, 0, 0, 5, 0, 2, 0, 0, 0}",
+                "found the point (0, 0, 0) twice in a row"},
+        Mistake{"NotFlat", polygon, "{0, 0, 0, 5, 0, 0, 5, 0, 2, 0, 0.1, 2}", not_a_polygon},
+        Mistake{"NotConvex", polygon, "{0, 0, 0, 5, 0, 0, 1, 0, 1, 0, 0, 2}", not_a_polygon},
+        Mistake{"Star", polygon, "{3, 0, 0, -2.4, 0, 1.8, 0.9, 0, -2.9, 0.9, 0, 2.9, -2.4, 0, -1.8}", not_a_polygon},
+        Mistake{"OnALine", polygon, "{0, 0, 0, 5, 0, 0, 10, 0, 0}", not_a_polygon},
+        Mistake{
+            "DiscWithoutNormal",
+            R"xml(value="Polygon"/><Parameter name="Points" type="Array(double)" value="{0, 0, 0, 5, 0, 0, 5, 0, 2, 0, 0, 2}"/>)xml",
+            R"xml(value="Disc"/><Parameter name="Center" type="Array(double)" value="{1, 2, 3}"/>
+                  <Parameter name="Radius" type="double" value="3"/>)xml",
+            R"xml(:31: /Pre-Cracks/slit/Normal: missing; a pre-crack with "Shape" "Disc" needs it)xml"},
+        Mistake{
+            "DiscWithNormalZero",
+            R"xml(value="Polygon"/><Parameter name="Points" type="Array(double)" value="{0, 0, 0, 5, 0, 0, 5, 0, 2, 0, 0, 2}"/>)xml",
+            R"xml(value="Disc"/><Parameter name="Center" type="Array(double)" value="{1, 2, 3}"/>
+                  <Parameter name="Normal" type="Array(double)" value="{0, 0, 0}"/>
+                  <Parameter name="Radius" type="double" value="3"/>)xml",
+            R"xml(:33: /Pre-Cracks/slit/Normal: found {0, 0, 0}; allowed is a direction, which has a length)xml"},
+        Mistake{
+            "TractionOfTwo", "{0, -1, 0}", "{0, -1}",
+            ":50: /Boundary Conditions/Tractions/wind/Rate: found {0, -1}; allowed are 3 numbers, one per dimension"}),
     named);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -14,39 +14,45 @@ using fracture::DiscontinuousElements;
 using morphing::Zone;
 using operators::PeridynamicStiffness;
 
-/// What a test says of a body; plane stress, nu = 1/3, unit thickness.
-struct Specimen {
-  mesh::Mesh<2> whole;  ///< used on rank 0
+/// What a test says of a body; in 2D of unit thickness.
+template <int dim>
+struct SpecimenIn {
+  mesh::Mesh<dim> whole;  ///< used on rank 0
   double horizon, characteristic_length;
-  std::vector<Zone<2>> seeds = {};
+  std::vector<Zone<dim>> seeds = {};
   std::vector<discretization::PrescribedComponent> displacements = {};
   DiscontinuousElements discontinuous = DiscontinuousElements::on_damage;
   PeridynamicStiffness peridynamic_stiffness = PeridynamicStiffness::dropped;
   double critical_stretch = std::numeric_limits<double>::infinity();
-  std::vector<mesh::CrackFacet<2>> pre_cracks = {};
-  std::vector<discretization::SurfaceTraction<2>> tractions = {};
-  Point2 body_force_rate = Point2::Zero();
+  std::vector<mesh::CrackFacet<dim>> pre_cracks = {};
+  std::vector<discretization::SurfaceTraction<dim>> tractions = {};
+  base::Point<dim> body_force_rate = base::Point<dim>::Zero();
   bool is_proportional = true;
   double tolerance = 1e-10;  ///< residual over reaction forces
   double youngs_modulus = 1000.;
+  materials::ElasticModel elastic_model =
+      dim == 2 ? materials::ElasticModel::plane_stress : materials::ElasticModel::three_dimensional;
 };
+using Specimen = SpecimenIn<2>;
 
-inline fracture::Problem<2> make_problem(const Specimen& specimen) {
-  constexpr auto model = materials::ElasticModel::plane_stress;
+template <int dim>
+fracture::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
+  const auto model = specimen.elastic_model;
   const double youngs_modulus = specimen.youngs_modulus;
-  const auto c0 = materials::calibrate<2>(model, youngs_modulus, specimen.characteristic_length, specimen.horizon);
-  return {materials::elasticity_tensor<2>(model, youngs_modulus, 1. / 3.),
+  const auto c0 = materials::calibrate<dim>(model, youngs_modulus, specimen.characteristic_length, specimen.horizon);
+  return {materials::elasticity_tensor<dim>(model, youngs_modulus, materials::bond_based_poissons_ratio(model)),
           c0,
           specimen.critical_stretch,
-          materials::fracture_energy<2>(c0, specimen.critical_stretch),
+          materials::fracture_energy<dim>(c0, specimen.critical_stretch),
           specimen.seeds,
           specimen.pre_cracks,
           specimen.displacements,
-          discretization::Loads<2>(specimen.tractions, {specimen.body_force_rate, Point2::Zero()}),
+          discretization::Loads<dim>(specimen.tractions, {specimen.body_force_rate, base::Point<dim>::Zero()}),
           specimen.is_proportional};
 }
 
-inline fracture::BodyOptions make_options(const Specimen& specimen) {
+template <int dim>
+fracture::BodyOptions make_options(const SpecimenIn<dim>& specimen) {
   fracture::BodyOptions options{};
   options.profile = morphing::Profile::linear;
   options.discontinuous = specimen.discontinuous;
@@ -54,17 +60,23 @@ inline fracture::BodyOptions make_options(const Specimen& specimen) {
   options.growth_inner_radius = 2. * specimen.horizon;
   options.growth_outer_radius = 4. * specimen.horizon;
   options.tolerance = options.damage_tolerance = specimen.tolerance;
+  if (dim == 3) {  // the whole matrix would take most of the time
+    options.preconditioner_matrix = fracture::PreconditionerMatrix::short_range;
+    options.short_range_cut_off = 0.6 * specimen.horizon;
+  }
   return options;
 }
 
 /// A body and all that must outlive it.
-struct SpecimenBody {
-  mesh::Mesh<2> mesh;
-  fracture::Problem<2> problem;
+template <int dim>
+struct SpecimenBodyIn {
+  mesh::Mesh<dim> mesh;
+  fracture::Problem<dim> problem;
   base::Profile profile;
-  fracture::Body<2> body;
+  fracture::Body<dim> body;
 
-  explicit SpecimenBody(const Specimen& specimen, const Teuchos::RCP<const base::Comm>& comm = Tpetra::getDefaultComm())
+  explicit SpecimenBodyIn(const SpecimenIn<dim>& specimen,
+                          const Teuchos::RCP<const base::Comm>& comm = Tpetra::getDefaultComm())
       : mesh(mesh::distribute(*comm, specimen.whole, specimen.horizon)),
         problem(make_problem(specimen)),
         body(comm, mesh, problem, make_options(specimen), profile) {}
@@ -84,5 +96,6 @@ struct SpecimenBody {
     return solves;
   }
 };
+using SpecimenBody = SpecimenBodyIn<2>;
 
 }  // namespace perimorph::tests

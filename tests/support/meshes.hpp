@@ -10,6 +10,22 @@
 namespace perimorph::tests {
 
 using Point2 = base::Point<2>;
+using Point3 = base::Point<3>;
+
+/// Everything on one rank: the rest of a mesh that has coordinates, elements and groups.
+template <int dim>
+void complete(mesh::Mesh<dim>& mesh) {
+  const int n_nodes = mesh.n_nodes(), n_elements = mesh.n_elements();
+  for (int n = 0; n < n_nodes; ++n) mesh.node_ids.push_back(n);
+  for (int e = 0; e < n_elements; ++e) mesh.element_ids.push_back(e);
+  mesh.node_owners.assign(n_nodes, 0);
+  mesh.element_owners.assign(n_elements, 0);
+  mesh.n_owned_nodes = n_nodes;
+  mesh.n_owned_elements = n_elements;
+  mesh.n_global_nodes = n_nodes;
+  mesh.n_global_elements = n_elements;
+  mesh::find_boundary(mesh);
+}
 
 struct Grid {
   int nx, ny;
@@ -62,24 +78,73 @@ inline mesh::Mesh<2> grid(const Grid& g) {
       if (i == g.nx - 1) mesh.side_sets["right"].push_back({g.triangles ? last - 1 : last, 1});
     }
   }
-  const int n_nodes = mesh.n_nodes(), n_elements = mesh.n_elements();
-  for (int n = 0; n < n_nodes; ++n) mesh.node_ids.push_back(n);
-  for (int e = 0; e < n_elements; ++e) mesh.element_ids.push_back(e);
-  mesh.node_owners.assign(n_nodes, 0);
-  mesh.element_owners.assign(n_elements, 0);
-  mesh.n_owned_nodes = n_nodes;
-  mesh.n_owned_elements = n_elements;
-  mesh.n_global_nodes = n_nodes;
-  mesh.n_global_elements = n_elements;
-  mesh::find_boundary(mesh);
+  complete(mesh);
+  return mesh;
+}
+
+struct Brick {
+  int nx, ny, nz;           ///< cubes of side 1
+  double distortion = 0.;   ///< of inner nodes
+  bool tetrahedra = false;  ///< each cube cut into six
+};
+
+/// A whole block of hexahedra from the origin, or of tetrahedra, on one rank. Node sets "left" and "right" (x),
+/// "bottom" and "top" (y), "back" and "front" (z), "all" and "boundary"; block "body".
+inline mesh::Mesh<3> brick(const Brick& b) {
+  mesh::Mesh<3> mesh;
+  mesh.block_names = {"body"};
+  const auto node = [&](int i, int j, int k) { return (k * (b.ny + 1) + j) * (b.nx + 1) + i; };
+  for (int k = 0; k <= b.nz; ++k) {
+    for (int j = 0; j <= b.ny; ++j) {
+      for (int i = 0; i <= b.nx; ++i) {
+        const bool inner = i > 0 && i < b.nx && j > 0 && j < b.ny && k > 0 && k < b.nz;
+        const Point3 wobble(std::sin(12.9898 * i + 78.233 * j + 5.1 * k), std::sin(39.346 * i + 11.135 * j + 7.7 * k),
+                            std::sin(4.898 * i + 28.23 * j + 55.1 * k));
+        mesh.coordinates.push_back(Point3(i, j, k) + (inner ? b.distortion : 0.) * wobble);
+        const int n = node(i, j, k);
+        const std::pair<const char*, bool> sets[] = {{"left", i == 0},     {"right", i == b.nx}, {"bottom", j == 0},
+                                                     {"top", j == b.ny},   {"back", k == 0},     {"front", k == b.nz},
+                                                     {"boundary", !inner}, {"all", true}};
+        for (const auto& [name, is_in] : sets) {
+          if (is_in) mesh.node_sets[name].push_back(n);
+        }
+      }
+    }
+  }
+  const auto add = [&](mesh::ElementType type, const std::vector<int>& corners) {
+    mesh.types.push_back(type);
+    mesh.blocks.push_back(0);
+    mesh.corners.insert(mesh.corners.end(), corners.begin(), corners.end());
+    mesh.first_corner.push_back(static_cast<int>(mesh.corners.size()));
+  };
+  for (int k = 0; k < b.nz; ++k) {
+    for (int j = 0; j < b.ny; ++j) {
+      for (int i = 0; i < b.nx; ++i) {
+        std::vector<int> c;
+        for (const int up : {k, k + 1}) {
+          for (const int n : {node(i, j, up), node(i + 1, j, up), node(i + 1, j + 1, up), node(i, j + 1, up)}) {
+            c.push_back(n);
+          }
+        }
+        if (!b.tetrahedra) {
+          add(mesh::ElementType::hex8, c);
+          continue;
+        }
+        // All six around the diagonal from corner 0 to corner 6: neighbouring cubes cut their common face alike.
+        const int around[] = {1, 2, 3, 7, 4, 5};
+        for (int t = 0; t < 6; ++t) add(mesh::ElementType::tet4, {c[0], c[around[t]], c[around[(t + 1) % 6]], c[6]});
+      }
+    }
+  }
+  complete(mesh);
   return mesh;
 }
 
 /// A whole mesh without the elements whose centroid lies where the predicate says, and without the nodes that only they
 /// had: a body with holes or notches. The ids stay contiguous; the groups keep what remains.
-template <class Predicate>
-mesh::Mesh<2> without(const mesh::Mesh<2>& whole, Predicate is_removed) {
-  mesh::Mesh<2> rest;
+template <int dim, class Predicate>
+mesh::Mesh<dim> without(const mesh::Mesh<dim>& whole, Predicate is_removed) {
+  mesh::Mesh<dim> rest;
   rest.block_names = whole.block_names;
   std::vector<int> new_node(whole.n_nodes(), -1), new_element(whole.n_elements(), -1);
   for (int e = 0; e < whole.n_elements(); ++e) {
@@ -93,13 +158,11 @@ mesh::Mesh<2> without(const mesh::Mesh<2>& whole, Predicate is_removed) {
     if (new_node[n] < 0) continue;
     new_node[n] = rest.n_nodes();
     rest.coordinates.push_back(whole.coordinates[n]);
-    rest.node_ids.push_back(new_node[n]);
   }
   for (int e = 0; e < whole.n_elements(); ++e) {
     if (new_element[e] < 0) continue;
     for (int k = 0; k < whole.n_corners(e); ++k) rest.corners.push_back(new_node[whole.corners_of(e)[k]]);
     rest.first_corner.push_back(static_cast<int>(rest.corners.size()));
-    rest.element_ids.push_back(new_element[e]);
   }
   for (const auto& [name, nodes] : whole.node_sets) {
     auto& kept = rest.node_sets[name];
@@ -113,13 +176,7 @@ mesh::Mesh<2> without(const mesh::Mesh<2>& whole, Predicate is_removed) {
       if (new_element[side.element] >= 0) kept.push_back({new_element[side.element], side.side});
     }
   }
-  rest.node_owners.assign(rest.n_nodes(), 0);
-  rest.element_owners.assign(rest.n_elements(), 0);
-  rest.n_owned_nodes = rest.n_nodes();
-  rest.n_owned_elements = rest.n_elements();
-  rest.n_global_nodes = rest.n_nodes();
-  rest.n_global_elements = rest.n_elements();
-  mesh::find_boundary(rest);
+  complete(rest);
   return rest;
 }
 

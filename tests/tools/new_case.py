@@ -25,7 +25,7 @@ class NewCase(unittest.TestCase):
         return subprocess.run([TOOLS / "new-case", *map(str, arguments)], capture_output=True, text=True, timeout=30)
 
     def test_every_template_makes_a_case_that_is_in_order(self):
-        self.assertLessEqual({"beam", "plate", "disk"}, set(TEMPLATES))
+        self.assertLessEqual({"beam", "plate", "disk", "block"}, set(TEMPLATES))
         for template in TEMPLATES:
             with self.subTest(template):
                 case = self.folder / "deep" / f"my-{template}"

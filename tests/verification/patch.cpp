@@ -1,102 +1,23 @@
 // Patch tests: uniform strain, prescribed as linear displacement on the boundary of a square.
 
-#include <gtest/gtest.h>
+#include "patch.hpp"
 
-#include "support/fracture_body.hpp"
+#include <gtest/gtest.h>
 
 namespace perimorph::tests {
 namespace {
 
-using Gradient = Eigen::Matrix2d;
+using Gradient = GradientIn<2>;
 
 Gradient gradient(double xx, double xy, double yx, double yy) { return (Gradient() << xx, xy, yx, yy).finished(); }
-
-/// The boundary of the mesh moved by u = gradient x: node sets of one node each, as every node has its own value.
-Specimen patch(mesh::Mesh<2> whole, double horizon, double characteristic_length, const Gradient& gradient) {
-  Specimen specimen{{}, horizon, characteristic_length};
-  for (const int n : std::vector<int>(whole.node_sets.at("boundary"))) {
-    const std::string name = "boundary " + std::to_string(n);
-    whole.node_sets[name] = {n};
-    const Point2 u = gradient * whole.coordinates[n];
-    for (int c = 0; c < 2; ++c) specimen.displacements.push_back({name, name, c, {u[c], 0.}});
-  }
-  specimen.whole = std::move(whole);
-  return specimen;
-}
-
-/// Displacement at each node of the reference mesh: the mean of those of the nodes that stand on it.
-Eigen::Matrix2Xd mean_displacement(const fracture::Body<2>& body) {
-  const auto model = body.model();
-  Eigen::Matrix2Xd sum = Eigen::Matrix2Xd::Zero(2, model.mesh.n_nodes());
-  std::vector<int> count(model.mesh.n_nodes(), 0);
-  for (int n = 0; n < model.dofs.n_nodes(); ++n) {
-    const int reference = model.dofs.reference_node(n);
-    sum.col(reference) += Eigen::Map<const Point2>(body.displacement() + 2 * n);
-    ++count[reference];
-  }
-  for (int n = 0; n < sum.cols(); ++n) sum.col(n) /= count[n];
-  return sum;
-}
-
-/// Strain of an element at one of its points. @param u displacement of each corner's node
-template <class Displacement>
-Eigen::Matrix2d strain(const operators::CoupledModel<2>& model, int e, int q, Displacement u) {
-  const auto g = model.points.gradients(e, q);
-  Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
-  for (int k = 0; k < model.mesh.n_corners(e); ++k) h += u(k) * g.col(k).transpose();
-  return 0.5 * (h + h.transpose());
-}
-
-struct Errors {
-  double displacement = 0.;  ///< largest at a node, over the largest displacement
-  double strain = 0.;        ///< largest at a material point, over the strain; of the mean displacement, gaps included
-  double rms_strain = 0.;    ///< root of the mean square over material points, of each element's own displacement
-};
-
-Errors errors(const fracture::Body<2>& body, const Gradient& gradient) {
-  const auto model = body.model();
-  Errors errors;
-  double largest = 0.;
-  for (int n = 0; n < model.dofs.n_nodes(); ++n) {
-    const Point2 exact = gradient * model.mesh.coordinates[model.dofs.reference_node(n)];
-    const Point2 u = Eigen::Map<const Point2>(body.displacement() + 2 * n);
-    largest = std::max(largest, exact.norm());
-    errors.displacement = std::max(errors.displacement, (u - exact).norm());
-  }
-  errors.displacement /= largest;
-
-  const Eigen::Matrix2Xd mean = mean_displacement(body);
-  const Eigen::Matrix2d exact = 0.5 * (gradient + gradient.transpose());
-  for (int e = 0; e < model.mesh.n_elements(); ++e) {
-    const auto mean_at = [&](int k) -> Point2 { return mean.col(model.mesh.corners_of(e)[k]); };
-    const auto own_at = [&](int k) -> Point2 {
-      return Eigen::Map<const Point2>(body.displacement() + 2 * model.dofs.nodes_of(e)[k]);
-    };
-    for (int q = 0; q < model.points.count(e); ++q) {
-      errors.strain = std::max(errors.strain, (strain(model, e, q, mean_at) - exact).norm() / exact.norm());
-      errors.rms_strain +=
-          (strain(model, e, q, own_at) - exact).squaredNorm() / exact.squaredNorm() / model.points.size();
-    }
-  }
-  errors.rms_strain = std::sqrt(errors.rms_strain);
-  return errors;
-}
-
-Errors solve(const Specimen& specimen, const Gradient& gradient) {
-  SpecimenBody test(specimen);
-  test.body.apply_load(1.);
-  test.body.update_topology();
-  test.body.solve(fracture::Accuracy::accepted);
-  return errors(test.body, gradient);
-}
 
 TEST(FinitePatch, LinearFieldIsReproducedToRounding) {
   const Gradient any = gradient(0.01, 0.003, -0.002, -0.004);
   for (const bool triangles : {false, true}) {
-    Specimen specimen = patch(grid({12, 12, 12., 12., Point2::Zero(), 0.2, triangles}), 3., 0.2, any);
+    Specimen specimen = patch<2>(grid({12, 12, 12., 12., Point2::Zero(), 0.2, triangles}), 3., 0.2, any);
     specimen.tolerance = 1e-13;
 
-    const Errors actual = solve(specimen, any);
+    const Errors actual = solve<2>(specimen, any);
 
     // The residual's tolerance times the condition number, some hundreds.
     EXPECT_LT(actual.displacement, 1e-10);
@@ -110,11 +31,11 @@ TEST(FinitePatch, LinearFieldIsReproducedToRounding) {
 /// errors below. The prototypes' strain errors are given without their norm: here root mean squares keep within them,
 /// and largest errors, which sit where E(x) is dropped, have bounds of their own.
 Errors solve_hybrid(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness, const Gradient& gradient) {
-  Specimen specimen = patch(grid({24, 24, 24., 24.}), 3., 0.2, gradient);
+  Specimen specimen = patch<2>(grid({24, 24, 24., 24.}), 3., 0.2, gradient);
   specimen.seeds = {Zone<2>::ball({12., 12.}, 5., 9.)};
   specimen.discontinuous = discontinuous;
   specimen.peridynamic_stiffness = stiffness;
-  return solve(specimen, gradient);
+  return solve<2>(specimen, gradient);
 }
 
 const Gradient uniaxial = gradient(0.01, 0., 0., 0.);
@@ -140,11 +61,11 @@ TEST(HybridPatch, LinearFieldIsReproducedAcrossTheMorphingZoneWithContinuousElem
 
 /// Ghost forces fall with horizon / (r2 - r1): here the rim is more than three horizons wide.
 Errors solve_wide_rim(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness, const Gradient& gradient) {
-  Specimen specimen = patch(grid({40, 40, 40., 40.}), 3., 0.2, gradient);
+  Specimen specimen = patch<2>(grid({40, 40, 40., 40.}), 3., 0.2, gradient);
   specimen.seeds = {Zone<2>::ball({20., 20.}, 6., 17.)};
   specimen.discontinuous = discontinuous;
   specimen.peridynamic_stiffness = stiffness;
-  return solve(specimen, gradient);
+  return solve<2>(specimen, gradient);
 }
 
 TEST(HybridPatch, AWideRimLowersTheDisplacementErrorOfDiscontinuousElements) {
@@ -188,7 +109,7 @@ TEST(HybridPatch, StiffnessKeptInDiscontinuousElementsDoesNoHarmUnderExtension) 
 
 TEST(HybridPatch, ARigidMotionCausesNoForces) {
   const Gradient rotation = gradient(0., -0.01, 0.01, 0.);  // linearized
-  Specimen specimen = patch(grid({24, 24, 24., 24., Point2::Zero(), 0.15}), 3., 0.2, rotation);
+  Specimen specimen = patch<2>(grid({24, 24, 24., 24., Point2::Zero(), 0.15}), 3., 0.2, rotation);
   specimen.seeds = {Zone<2>::ball({12., 12.}, 5., 9.)};
   specimen.discontinuous = DiscontinuousElements::whole_zone;
   SpecimenBody test(specimen);

@@ -43,18 +43,25 @@ void BondFamilies<dim>::extend(const std::vector<int>& elements) {
       add_pair(in_order ? e : f, in_order ? f : e, obstacles);
     }
   }
+  ends_.shrink_to_fit();  // growing vectors hold up to twice of what is in them
+  stiffness_.shrink_to_fit();
 }
 
 template <int dim>
 void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles) {
   const int first_a = points_.first(a), first_b = points_.first(b);
+  std::vector<Point<dim>> ends;
+  for (int q = 0; q < points_.count(a); ++q) ends.push_back(points_.position(first_a + q));
+  for (int q = 0; q < points_.count(b); ++q) ends.push_back(points_.position(first_b + q));
+  // A bond inside one element is inside the body: elements are convex.
+  const auto between =
+      a == b ? std::vector<typename Visibility<dim>::Facet>() : Visibility<dim>::among(obstacles, ends);
   for (int qa = 0; qa < points_.count(a); ++qa) {
     for (int qb = a == b ? qa + 1 : 0; qb < points_.count(b); ++qb) {
       const int i = first_a + qa, j = first_b + qb;
       const double c0 = micromodulus_((points_.position(j) - points_.position(i)).norm());
       if (c0 == 0.) continue;
-      // A bond inside one element is inside the body: elements are convex.
-      if (a != b && Visibility<dim>::blocks(obstacles, points_.position(i), points_.position(j))) continue;
+      if (Visibility<dim>::blocks(between, points_.position(i), points_.position(j))) continue;
       ends_.push_back(static_cast<std::uint16_t>(qa * elements::max_points + qb));
       stiffness_.push_back(static_cast<float>(c0 * points_.weight(i) * points_.weight(j)));
       family_volume_[i] += points_.weight(j);
@@ -62,7 +69,6 @@ void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibi
     }
   }
   if (stiffness_.size() == first_bond_.back()) return;
-  broken_.resize(stiffness_.size(), 0);
   pairs_of_[a].push_back(n_pairs());
   if (b != a) pairs_of_[b].push_back(n_pairs());
   pairs_.push_back({a, b});
@@ -72,6 +78,15 @@ void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibi
 template <int dim>
 int BondFamilies<dim>::pair_of(Bond b) const {
   return static_cast<int>(std::upper_bound(first_bond_.begin(), first_bond_.end(), b) - first_bond_.begin()) - 1;
+}
+
+template <int dim>
+std::size_t BondFamilies<dim>::bytes() const {
+  const auto size = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
+  std::size_t sum = size(ends_) + size(stiffness_) + size(pairs_) + size(first_bond_) + size(pairs_of_) +
+                    size(family_volume_) + size(lost_volume_);
+  for (const auto& pairs : pairs_of_) sum += size(pairs);
+  return sum;
 }
 
 template <int dim>
@@ -89,7 +104,7 @@ template <int dim>
 void BondFamilies<dim>::set_broken(int p, Bond b) {
   const auto [first, second] = pairs_[p];
   const int i = points_.first(first) + first_end(b), j = points_.first(second) + second_end(b);
-  broken_[b] = 1;
+  ends_[b] = static_cast<std::uint16_t>(ends_[b] | broken_bit);
   damaged_[first] = damaged_[second] = 1;
   lost_volume_[i] += points_.weight(j);
   lost_volume_[j] += points_.weight(i);
@@ -131,7 +146,7 @@ std::vector<typename BondFamilies<dim>::Bond> BondFamilies<dim>::break_overstret
     }
     const int first_a = points_.first(first), first_b = points_.first(second);
     for (Bond b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
-      if (broken_[b]) continue;
+      if (broken(b)) continue;
       const int i = first_a + first_end(b), j = first_b + second_end(b);
       const Point<dim> xi = points_.position(j) - points_.position(i);
       const Point<dim> eta = displacements[j] - displacements[i];

@@ -1,5 +1,6 @@
 #include "perimorph/bonds/visibility.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 
@@ -21,10 +22,11 @@ double radius(const mesh::CrackFacet<dim>& facet) {
   return r;
 }
 
+constexpr double slack = 1e-9;  // relative to bond and facet: a bond through a facet's corner is cut
+
 /// Solves x + t (p - x) = f0 + sum_i s_i (f_i - f0); they meet if t, s_i and 1 - sum s_i are not negative and t <= 1.
 template <int dim>
 bool meets(const mesh::CrackFacet<dim>& facet, const base::Point<dim>& x, const base::Point<dim>& p) {
-  constexpr double slack = 1e-9;  // relative to bond and facet: a bond through a facet's corner is cut
   Eigen::Matrix<double, dim, dim> directions;
   directions.col(0) = p - x;
   double scale = directions.col(0).norm();
@@ -39,21 +41,31 @@ bool meets(const mesh::CrackFacet<dim>& facet, const base::Point<dim>& x, const 
   return t >= -slack && t <= 1. + slack && s.minCoeff() >= -slack && s.sum() <= 1. + slack;
 }
 
+/// Positive on one side of the facet's line or plane, negative on the other, proportional to the distance.
+template <int dim>
+double side(const mesh::CrackFacet<dim>& facet, const base::Point<dim>& x) {
+  Eigen::Matrix<double, dim, dim> edges;
+  edges.col(0) = x - facet[0];
+  for (int i = 1; i < dim; ++i) edges.col(i) = facet[i] - facet[0];
+  return edges.determinant();
+}
+
 }  // namespace
 
 template <int dim>
-Visibility<dim>::Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet>& pre_cracks) : facets_(pre_cracks) {
+Visibility<dim>::Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet>& pre_cracks)
+    : pre_cracks_(pre_cracks) {
   for (const auto& side : mesh.boundary) {
     const auto corners = mesh::corner_points(mesh, side);
     for (std::size_t k = dim - 1; k < corners.size(); ++k) {  // a fan: one segment in 2D, one or two triangles in 3D
       Facet facet;
       facet[0] = corners[0];
       for (int i = 1; i < dim; ++i) facet[i] = corners[k - dim + 1 + i];
-      facets_.push_back(facet);
+      boundary_.push_back(facet);
     }
   }
   std::vector<base::Point<dim>> centers;
-  for (const auto& facet : facets_) {
+  for (const auto& facet : boundary_) {
     centers.push_back(centroid<dim>(facet));
     largest_radius_ = std::max(largest_radius_, radius<dim>(facet));
   }
@@ -63,7 +75,28 @@ Visibility<dim>::Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet
 template <int dim>
 std::vector<mesh::CrackFacet<dim>> Visibility<dim>::near(const base::Point<dim>& center, double reach) const {
   std::vector<Facet> found;
-  for (const int f : tree_->within(center, reach + largest_radius_)) found.push_back(facets_[f]);
+  for (const int f : tree_->within(center, reach + largest_radius_)) found.push_back(boundary_[f]);
+  for (const auto& facet : pre_cracks_) {
+    Eigen::AlignedBox<double, dim> box;
+    for (const auto& corner : facet) box.extend(corner);
+    if (box.squaredExteriorDistance(center) <= reach * reach) found.push_back(facet);
+  }
+  return found;
+}
+
+template <int dim>
+std::vector<mesh::CrackFacet<dim>> Visibility<dim>::among(const std::vector<Facet>& facets,
+                                                          const std::vector<base::Point<dim>>& points) {
+  std::vector<Facet> found;
+  for (const auto& facet : facets) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (const auto& x : points) {
+      lowest = std::min(lowest, side<dim>(facet, x));
+      highest = std::max(highest, side<dim>(facet, x));
+    }
+    const double touching = slack * (highest - lowest);  // as in meets()
+    if (lowest <= touching && highest >= -touching) found.push_back(facet);
+  }
   return found;
 }
 

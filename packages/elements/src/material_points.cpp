@@ -12,21 +12,22 @@ MaterialPoints<dim>::MaterialPoints(const mesh::Mesh<dim>& mesh, int points_per_
   for (int e = 0; e < mesh.n_elements(); ++e) {
     references_.push_back(&reference_element<dim>(mesh.types[e], points_per_direction));
     const auto& reference = *references_.back();
-    first_gradient_.push_back(gradients_.size());
     for (int q = 0; q < reference.n_points; ++q) {
       base::Point<dim> x = base::Point<dim>::Zero();
       for (int k = 0; k < reference.n_corners; ++k)
         x += reference.shape[q](k) * mesh.coordinates[mesh.corners_of(e)[k]];
-      const Eigen::Matrix<double, dim, dim> j = jacobian(e, q);
-      const double volume = reference.weights[q] * j.determinant();
+      const double volume = reference.weights[q] * jacobian(e, q).determinant();
       PERIMORPH_ASSERT(volume > 0., "element {} has volume {} at point {}", mesh.element_ids[e], volume, q);
       positions_.push_back(x);
       weights_.push_back(volume);
-      const ShapeGradients<dim> gradients = j.inverse().transpose() * reference.gradients[q];
-      gradients_.insert(gradients_.end(), gradients.data(), gradients.data() + gradients.size());
     }
     first_.push_back(static_cast<int>(weights_.size()));
   }
+}
+
+template <int dim>
+ShapeGradients<dim> MaterialPoints<dim>::gradients(int element, int q) const {
+  return jacobian(element, q).inverse().transpose() * references_[element]->gradients[q];
 }
 
 template <int dim>

@@ -40,5 +40,6 @@ void run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>&
 }
 
 template void run_adaptive_loop<2>(Body<2>&, Results<2>&, Checkpoints<2>&, const LoopLimits&);
+template void run_adaptive_loop<3>(Body<3>&, Results<3>&, Checkpoints<3>&, const LoopLimits&);
 
 }  // namespace perimorph::fracture

@@ -28,9 +28,13 @@ std::vector<char> find_cut_elements(const mesh::Mesh<dim>& mesh, const elements:
   std::vector<char> cut(mesh.n_elements(), 0);
   if (pre_cracks.empty()) return cut;
   for (int e = 0; e < mesh.n_elements(); ++e) {
+    std::vector<Point<dim>> own;
+    for (int i = points.first(e); i < points.first(e + 1); ++i) own.push_back(points.position(i));
+    const auto through = bonds::Visibility<dim>::among(pre_cracks, own);
+    if (through.empty()) continue;
     for (int i = points.first(e); i < points.first(e + 1); ++i) {
       for (int j = i + 1; j < points.first(e + 1) && !cut[e]; ++j) {
-        cut[e] = bonds::Visibility<dim>::blocks(pre_cracks, points.position(i), points.position(j));
+        cut[e] = bonds::Visibility<dim>::blocks(through, points.position(i), points.position(j));
       }
     }
   }
@@ -164,7 +168,7 @@ void Body<dim>::check_pre_cracks() const {
       const auto c = mesh::centroid(mesh_, e);
       throw base::UserError(fmt::format(
           "/Pre-Cracks: a pre-crack cuts through the element at ({:.6g}), which is not peridynamic and so cannot part; "
-          "let the crack run along edges of the mesh, or put a seed there that is wider by a horizon",
+          "let the crack run along sides of elements, or put a seed there that is wider by a horizon",
           fmt::join(c.begin(), c.end(), ", ")));
     }
   });
@@ -487,5 +491,6 @@ BodyOptions body_options(const Case& input) {
 }
 
 template class Body<2>;
+template class Body<3>;
 
 }  // namespace perimorph::fracture

@@ -83,6 +83,8 @@ Seed seed_from(const std::string& name, const ParameterList& list) {
   seed.name = name;
   seed.shape = value_of(seed_shapes, word(list, "Shape"));
   seed.center = numbers(list, "Center");
+  seed.start = numbers(list, "Start");
+  seed.end = numbers(list, "End");
   seed.inner_radius = number(list, "Inner Radius");
   seed.outer_radius = number(list, "Outer Radius");
   seed.lower_corner = numbers(list, "Lower Corner");
@@ -102,7 +104,9 @@ void take_zones(Case& result, const ParameterList& list) {
   for (const auto& item : seeds) result.seeds.push_back(seed_from(item.first, seeds.sublist(item.first)));
   const ParameterList& cracks = list.sublist("Pre-Cracks");
   for (const auto& item : cracks) {
-    result.pre_cracks.push_back({item.first, numbers(cracks.sublist(item.first), "Points")});
+    const ParameterList& one = cracks.sublist(item.first);
+    result.pre_cracks.push_back({item.first, value_of(pre_crack_shapes, word(one, "Shape")), numbers(one, "Points"),
+                                 numbers(one, "Center"), numbers(one, "Normal"), number(one, "Radius")});
   }
 }
 

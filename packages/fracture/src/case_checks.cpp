@@ -1,6 +1,8 @@
 #include "case_checks.hpp"
 
+#include <Eigen/Geometry>
 #include <Teuchos_Array.hpp>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -61,6 +63,17 @@ void check_order(const Section& section, const std::string& smaller, const std::
   section.mistake(larger, fmt::format("found {}; allowed is a number > \"{}\", which is {}", *high, smaller, *low));
 }
 
+/// A word that only the other dimension allows.
+template <class E, std::size_t n>
+void check_choice(const Section& section, const std::string& name, const std::array<Choice<E>, n>& choices,
+                  int dimension) {
+  const std::string* word = section.text(name);
+  const auto allowed = words(choices, dimension);
+  if (word == nullptr || std::find(allowed.begin(), allowed.end(), *word) != allowed.end()) return;
+  section.mistake(name, fmt::format("found {}; allowed is {} in {} dimensions (/Dimension)", in_quotes(*word),
+                                    base::quoted_list(allowed, " or "), dimension == 2 ? "two" : "three"));
+}
+
 void check_poissons_ratio(const Section& material) {
   const double* ratio = material.number("Poisson's Ratio");
   const std::string* model = material.text("Elastic Model");
@@ -75,7 +88,8 @@ void check_poissons_ratio(const Section& material) {
                   *ratio, needed == 0.25 ? "0.25 (1/4)" : "0.3333 (1/3)", *model));
 }
 
-void check_material(const Section& material) {
+void check_material(const Section& material, int dimension) {
+  check_choice(material, "Elastic Model", elastic_models, dimension);
   check_poissons_ratio(material);
   if (material.given("Critical Stretch") && material.given("Fracture Energy")) {
     material.mistake("Fracture Energy",
@@ -102,55 +116,123 @@ void check_corners(const Section& seed, int dimension) {
   }
 }
 
+template <class E>
 struct ShapeParameter {
-  SeedShape shape;
+  E shape;
   const char* name;
 };
-constexpr ShapeParameter shape_parameters[] = {{SeedShape::ball, "Center"},       {SeedShape::ball, "Inner Radius"},
-                                               {SeedShape::ball, "Outer Radius"}, {SeedShape::box, "Lower Corner"},
-                                               {SeedShape::box, "Upper Corner"},  {SeedShape::box, "Rim"}};
+constexpr std::array<ShapeParameter<SeedShape>, 10> seed_parameters{{{SeedShape::ball, "Center"},
+                                                                     {SeedShape::ball, "Inner Radius"},
+                                                                     {SeedShape::ball, "Outer Radius"},
+                                                                     {SeedShape::cylinder, "Start"},
+                                                                     {SeedShape::cylinder, "End"},
+                                                                     {SeedShape::cylinder, "Inner Radius"},
+                                                                     {SeedShape::cylinder, "Outer Radius"},
+                                                                     {SeedShape::box, "Lower Corner"},
+                                                                     {SeedShape::box, "Upper Corner"},
+                                                                     {SeedShape::box, "Rim"}}};
+constexpr std::array<ShapeParameter<PreCrackShape>, 5> pre_crack_parameters{{{PreCrackShape::polyline, "Points"},
+                                                                             {PreCrackShape::polygon, "Points"},
+                                                                             {PreCrackShape::disc, "Center"},
+                                                                             {PreCrackShape::disc, "Normal"},
+                                                                             {PreCrackShape::disc, "Radius"}}};
 
-/// Each shape needs its own parameters and takes no others.
-void check_seed(const Section& seed, int dimension) {
-  const std::string* word = seed.text("Shape");
+/// Each shape needs its own parameters and takes no others. @param what has the shape: "a seed"
+template <class E, std::size_t n, std::size_t m>
+void check_shape(const Section& section, const char* what, const std::array<Choice<E>, n>& shapes,
+                 const std::array<ShapeParameter<E>, m>& parameters, int dimension) {
+  const std::string* word = section.text("Shape");
   if (word == nullptr) return;
-  const SeedShape shape = value_of(seed_shapes, *word);
-  for (const auto& [owner, name] : shape_parameters) {
-    if (owner == shape && !seed.given(name)) {
-      seed.mistake(name, fmt::format("missing; a seed with \"Shape\" \"{}\" needs it", *word));
-    } else if (owner != shape && seed.given(name)) {
-      seed.mistake(
-          name, fmt::format("found in a seed with \"Shape\" \"{}\"; allowed is only what describes that shape", *word));
+  check_choice(section, "Shape", shapes, dimension);
+  std::map<std::string, bool> is_needed;
+  for (const auto& [shape, name] : parameters) is_needed[name] |= shape == value_of(shapes, *word);
+  for (const auto& [name, needed] : is_needed) {
+    if (needed && !section.given(name)) {
+      section.mistake(name, fmt::format("missing; {} with \"Shape\" \"{}\" needs it", what, *word));
+    } else if (!needed && section.given(name)) {
+      section.mistake(name, fmt::format("found in {} with \"Shape\" \"{}\"; allowed is only what describes that shape",
+                                        what, *word));
     }
   }
-  check_order(seed, "Inner Radius", "Outer Radius");
-  for (const char* name : {"Center", "Lower Corner", "Upper Corner"}) check_size(seed, name, dimension);
-  check_corners(seed, dimension);
 }
 
-void check_pre_crack(const Section& crack) {
-  const Numbers* points = crack.numbers("Points");
-  if (points == nullptr) return;
-  if (points->size() < 4 || points->size() % 2 != 0) {
-    crack.mistake("Points", fmt::format("found {} numbers; allowed are two points or more, {{x1, y1, x2, y2, ...}}",
-                                        points->size()));
+void check_that_it_has_length(const Section& section, const std::string& name, const Numbers& direction) {
+  if (std::any_of(direction.begin(), direction.end(), [](double value) { return value != 0.; })) return;
+  section.mistake(name, fmt::format("found {}; allowed is a direction, which has a length", section.shown(name)));
+}
+
+void check_seed(const Section& seed, int dimension) {
+  check_shape(seed, "a seed", seed_shapes, seed_parameters, dimension);
+  check_order(seed, "Inner Radius", "Outer Radius");
+  for (const char* name : {"Center", "Start", "End", "Lower Corner", "Upper Corner"}) check_size(seed, name, dimension);
+  check_corners(seed, dimension);
+  const Numbers *start = seed.numbers("Start"), *end = seed.numbers("End");
+  if (start != nullptr && end != nullptr && *start == *end) {
+    seed.mistake("End", fmt::format("found {}, which is \"Start\" too; allowed is an axis that has a length",
+                                    seed.shown("End")));
+  }
+}
+
+/// All corners of a polygon lie in one plane and turn the same way. @param corners no two in a row are the same
+bool is_flat_and_convex(const std::vector<base::Point<3>>& corners) {
+  constexpr double tolerance = 1e-6;  // of the polygon's size
+  const auto n = corners.size();
+  base::Point<3> normal = base::Point<3>::Zero();
+  double size = 0.;
+  for (std::size_t i = 0; i < n; ++i) {
+    normal += (corners[i] - corners[0]).cross(corners[(i + 1) % n] - corners[0]);
+    size = std::max(size, (corners[i] - corners[0]).norm());
+  }
+  if (normal.norm() <= tolerance * size * size) return false;
+  normal.normalize();
+  double turned = 0.;
+  for (std::size_t i = 0; i < n; ++i) {
+    const base::Point<3> to = corners[(i + 1) % n] - corners[i], from = corners[(i + 2) % n] - corners[(i + 1) % n];
+    const double turn = normal.dot(to.cross(from)) / (to.norm() * from.norm());
+    if (turn < -tolerance || std::abs(normal.dot(to)) > tolerance * size) return false;
+    turned += std::atan2(turn, to.dot(from) / (to.norm() * from.norm()));
+  }
+  return turned < 7.;  // once around, 2 pi: a star goes around more often
+}
+
+void check_points(const Section& crack, const Numbers& points, int dimension) {
+  const bool is_polygon = dimension == 3;
+  const int n = static_cast<int>(points.size()) / dimension;
+  if (n < dimension || points.size() % dimension != 0) {
+    crack.mistake("Points", fmt::format("found {} numbers; allowed are {}", points.size(),
+                                        is_polygon ? "three points or more, {x1, y1, z1, x2, ...}"
+                                                   : "two points or more, {x1, y1, x2, y2, ...}"));
     return;
   }
-  for (int i = 2; i + 1 < points->size(); i += 2) {
-    if ((*points)[i] != (*points)[i - 2] || (*points)[i + 1] != (*points)[i - 1]) continue;
-    crack.mistake("Points",
-                  fmt::format("found the point ({}, {}) twice in a row; allowed are segments that have a length",
-                              (*points)[i], (*points)[i + 1]));
+  bool is_sound = true;
+  for (int i = is_polygon ? 0 : 1; i < n; ++i) {
+    const auto point = points.begin() + i * dimension, before = points.begin() + (i + n - 1) % n * dimension;
+    if (!std::equal(point, point + dimension, before)) continue;
+    is_sound = false;
+    crack.mistake("Points", fmt::format("found the point ({}) twice in a row; allowed are segments that have a length",
+                                        fmt::join(point, point + dimension, ", ")));
   }
+  if (!is_polygon || !is_sound) return;
+  std::vector<base::Point<3>> corners;
+  for (int i = 0; i < n; ++i) corners.emplace_back(Eigen::Map<const base::Point<3>>(&points[i * 3]));
+  if (is_flat_and_convex(corners)) return;
+  crack.mistake("Points", fmt::format("found {}; allowed are the corners of a flat convex polygon, one after the other "
+                                      "around it; other shapes are several pre-cracks",
+                                      crack.shown("Points")));
+}
+
+void check_pre_crack(const Section& crack, int dimension) {
+  check_shape(crack, "a pre-crack", pre_crack_shapes, pre_crack_parameters, dimension);
+  if (const Numbers* points = crack.numbers("Points")) check_points(crack, *points, dimension);
+  for (const char* name : {"Center", "Normal"}) check_size(crack, name, dimension);
+  if (const Numbers* normal = crack.numbers("Normal")) check_that_it_has_length(crack, "Normal", *normal);
 }
 
 void check_displacements(const Section& conditions, int dimension) {
   std::map<std::pair<std::string, std::string>, std::string> seen;
   for (const Section& one : conditions.subs("Displacements")) {
     const std::string *group = one.text("Group"), *component = one.text("Component");
-    if (component != nullptr && value_of(components, *component) >= dimension) {
-      one.mistake("Component", fmt::format("found \"{}\"; allowed is \"x\" or \"y\" in two dimensions", *component));
-    }
+    check_choice(one, "Component", components, dimension);
     if (group == nullptr || component == nullptr) continue;
     const auto [first, is_new] = seen.emplace(std::make_pair(*group, *component), one.path());
     if (is_new) continue;
@@ -185,13 +267,15 @@ double poissons_ratio_of(const std::string& elastic_model) {
 }
 
 void check_case(const Resolved& resolved, Mistakes& mistakes) {
-  const int dimension = 2;  // the schema allows no other yet
   const Section root(resolved, mistakes, resolved.list, "");
-  check_material(root.sub("Material"));
+  const int* given_dimension = resolved.list.getPtr<int>("Dimension");
+  if (given_dimension == nullptr) return;  // what is wrong depends on it
+  const int dimension = *given_dimension;
+  check_material(root.sub("Material"), dimension);
   check_order(root.sub("Peridynamics"), "Characteristic Length", "Horizon");
   check_order(root.sub("Morphing"), "Growth Inner Radius", "Growth Outer Radius");
   for (const Section& seed : root.sub("Morphing").subs("Seeds")) check_seed(seed, dimension);
-  for (const Section& crack : root.subs("Pre-Cracks")) check_pre_crack(crack);
+  for (const Section& crack : root.subs("Pre-Cracks")) check_pre_crack(crack, dimension);
   const Section conditions = root.sub("Boundary Conditions");
   check_displacements(conditions, dimension);
   for (const Section& traction : conditions.subs("Tractions")) check_load(traction, dimension);

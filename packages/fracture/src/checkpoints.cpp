@@ -295,5 +295,6 @@ io::Checkpoint Checkpoints<dim>::gather() const {
 }
 
 template class Checkpoints<2>;
+template class Checkpoints<3>;
 
 }  // namespace perimorph::fracture

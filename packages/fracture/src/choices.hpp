@@ -15,12 +15,21 @@ template <class E>
 struct Choice {
   const char* word;
   E value;
+  int dimension = 0;  ///< in which alone it is allowed; 0: in both
 };
 
-inline constexpr std::array<Choice<ElasticModel>, 2> elastic_models{
-    {{"Plane Stress", ElasticModel::plane_stress}, {"Plane Strain", ElasticModel::plane_strain}}};
-inline constexpr std::array<Choice<SeedShape>, 3> seed_shapes{
-    {{"Circle", SeedShape::ball}, {"Box", SeedShape::box}, {"Everything", SeedShape::everything}}};
+inline constexpr std::array<Choice<ElasticModel>, 3> elastic_models{
+    {{"Plane Stress", ElasticModel::plane_stress, 2},
+     {"Plane Strain", ElasticModel::plane_strain, 2},
+     {"Three-Dimensional", ElasticModel::three_dimensional, 3}}};
+inline constexpr std::array<Choice<SeedShape>, 5> seed_shapes{{{"Circle", SeedShape::ball, 2},
+                                                               {"Sphere", SeedShape::ball, 3},
+                                                               {"Cylinder", SeedShape::cylinder, 3},
+                                                               {"Box", SeedShape::box},
+                                                               {"Everything", SeedShape::everything}}};
+inline constexpr std::array<Choice<PreCrackShape>, 3> pre_crack_shapes{{{"Polyline", PreCrackShape::polyline, 2},
+                                                                        {"Polygon", PreCrackShape::polygon, 3},
+                                                                        {"Disc", PreCrackShape::disc, 3}}};
 inline constexpr std::array<Choice<MorphingProfile>, 2> morphing_profiles{
     {{"Linear", MorphingProfile::linear}, {"Cubic", MorphingProfile::cubic}}};
 inline constexpr std::array<Choice<DiscontinuousElements>, 2> discontinuous_elements{
@@ -31,12 +40,15 @@ inline constexpr std::array<Choice<PreconditionerMatrix>, 2> preconditioner_matr
     {{"Coupled", PreconditionerMatrix::coupled}, {"Short-Range", PreconditionerMatrix::short_range}}};
 inline constexpr std::array<Choice<OperatorForm>, 2> operator_forms{
     {{"CRS", OperatorForm::crs}, {"Matrix-Free", OperatorForm::matrix_free}}};
-inline constexpr std::array<Choice<int>, 3> components{{{"x", 0}, {"y", 1}, {"z", 2}}};
+inline constexpr std::array<Choice<int>, 3> components{{{"x", 0}, {"y", 1}, {"z", 2, 3}}};
 
+/// All words, or those allowed in one dimension.
 template <class E, std::size_t n>
-std::vector<std::string> words(const std::array<Choice<E>, n>& choices) {
+std::vector<std::string> words(const std::array<Choice<E>, n>& choices, int dimension = 0) {
   std::vector<std::string> all;
-  for (const auto& choice : choices) all.emplace_back(choice.word);
+  for (const auto& choice : choices) {
+    if (dimension == 0 || choice.dimension == 0 || choice.dimension == dimension) all.emplace_back(choice.word);
+  }
   return all;
 }
 

@@ -26,6 +26,8 @@ morphing::Zone<dim> make_zone(const Seed& seed) {
   switch (seed.shape) {
     case SeedShape::ball:
       return Zone::ball(point<dim>(seed.center), seed.inner_radius, seed.outer_radius);
+    case SeedShape::cylinder:
+      return Zone::cylinder(point<dim>(seed.start), point<dim>(seed.end), seed.inner_radius, seed.outer_radius);
     case SeedShape::box:
       return Zone::box(point<dim>(seed.lower_corner), point<dim>(seed.upper_corner), seed.rim);
     case SeedShape::everything:
@@ -34,13 +36,17 @@ morphing::Zone<dim> make_zone(const Seed& seed) {
   throw base::Bug("unknown seed shape");
 }
 
-/// The segments of a polyline.
-std::vector<mesh::CrackFacet<2>> facets(const PreCrack& crack) {
-  std::vector<mesh::CrackFacet<2>> segments;
-  for (std::size_t i = 0; i + 4 <= crack.points.size(); i += 2) {
-    segments.push_back({point<2>(crack.points, i), point<2>(crack.points, i + 2)});
+template <int dim>
+std::vector<mesh::CrackFacet<dim>> facets(const PreCrack& crack) {
+  std::vector<Point<dim>> corners;
+  for (std::size_t i = 0; i < crack.points.size(); i += dim) corners.push_back(point<dim>(crack.points, i));
+  if constexpr (dim == 2) {
+    return mesh::polyline(corners);
+  } else {
+    return crack.shape == PreCrackShape::polygon
+               ? mesh::polygon(corners)
+               : mesh::disc(point<dim>(crack.center), point<dim>(crack.normal), crack.radius);
   }
-  return segments;
 }
 
 template <int dim>
@@ -89,7 +95,7 @@ Problem<dim> make_problem(const Case& input) {
       is_proportional(input)};
   for (const auto& seed : input.seeds) problem.seeds.push_back(make_zone<dim>(seed));
   for (const auto& crack : input.pre_cracks) {
-    for (const auto& facet : facets(crack)) problem.pre_cracks.push_back(facet);
+    for (const auto& facet : facets<dim>(crack)) problem.pre_cracks.push_back(facet);
   }
   for (const auto& d : input.displacements) {
     problem.displacements.push_back({d.name, d.group, d.component, {d.rate, d.constant}});
@@ -117,8 +123,13 @@ mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& w
   return mesh::distribute(comm, whole, problem.seeds.empty() ? 0. : problem.micromodulus.horizon);
 }
 
-template Problem<2> make_problem<2>(const Case&);
-template mesh::Mesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const Problem<2>&, const std::string&);
-template mesh::Mesh<2> distribute_mesh<2>(const base::Comm&, const mesh::Mesh<2>&, const Problem<2>&);
+#define PERIMORPH_INSTANTIATE(dim)                                                                   \
+  template Problem<dim> make_problem<dim>(const Case&);                                              \
+  template mesh::Mesh<dim> read_whole_mesh<dim>(const base::Comm&, const Case&, const Problem<dim>&, \
+                                                const std::string&);                                 \
+  template mesh::Mesh<dim> distribute_mesh<dim>(const base::Comm&, const mesh::Mesh<dim>&, const Problem<dim>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
 
 }  // namespace perimorph::fracture

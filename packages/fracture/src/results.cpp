@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/bonds/broken_surface.hpp"
 #include "perimorph/operators/fields.hpp"
 
 namespace perimorph::fracture {
@@ -17,6 +18,8 @@ namespace perimorph::fracture {
 using base::GlobalId;
 
 namespace {
+
+constexpr const char* broken_surface_name = "broken_surface";  // a side set
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
@@ -124,6 +127,23 @@ std::vector<int> own_nodes_in(const Body<dim>& body, const std::vector<int>& ref
   return found;
 }
 
+/// Sides as rank 0 writes them, from all ranks' own.
+template <int dim>
+std::vector<mesh::Side> gather_sides(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
+                                     const std::vector<mesh::Side>& sides, const std::map<GlobalId, int>& place_of) {
+  struct SideRecord {
+    GlobalId element;
+    int side;
+  };
+  std::vector<SideRecord> own;
+  for (const auto& side : sides) {
+    if (side.element < mesh.n_owned_elements) own.push_back({mesh.element_ids[side.element], side.side});
+  }
+  std::vector<mesh::Side> all;
+  for (const auto& record : base::gather_on_root(comm, own)) all.push_back({place_of.at(record.element), record.side});
+  return all;
+}
+
 template <int dim>
 void gather_groups(const base::Comm& comm, const Body<dim>& body, const std::map<GlobalId, int>& place_of,
                    io::ExodusModel<dim>& model) {
@@ -133,19 +153,8 @@ void gather_groups(const base::Comm& comm, const Body<dim>& body, const std::map
     for (const int n : own_nodes_in(body, reference_nodes)) own.push_back(static_cast<int>(view.dofs.global_node(n)));
     model.node_sets[name] = base::gather_on_root(comm, own);
   }
-  struct SideRecord {
-    GlobalId element;
-    int side;
-  };
   for (const auto& [name, sides] : body.mesh().side_sets) {
-    std::vector<SideRecord> own;
-    for (const auto& side : sides) {
-      if (side.element < body.mesh().n_owned_elements)
-        own.push_back({body.mesh().element_ids[side.element], side.side});
-    }
-    auto& all = model.side_sets[name];
-    for (const auto& record : base::gather_on_root(comm, own))
-      all.push_back({place_of.at(record.element), record.side});
+    model.side_sets[name] = gather_sides(comm, body.mesh(), sides, place_of);
   }
 }
 
@@ -357,7 +366,7 @@ void Results<dim>::summarize(const Body<dim>& body) {
 }
 
 template <int dim>
-void Results<dim>::start_file(const Body<dim>& body) {
+void Results<dim>::start_file(const Body<dim>& body, const std::vector<mesh::Side>& broken_surface) {
   io::ExodusModel<dim> model;
   model.coordinates = gather_points<dim>(*comm_, own_coordinates(body));
   const auto records = base::gather_on_root(*comm_, own_elements(body));
@@ -365,6 +374,7 @@ void Results<dim>::start_file(const Body<dim>& body) {
   std::map<GlobalId, int> place_of;
   for (std::size_t i = 0; i < records.size(); ++i) place_of[records[i].id] = element_place_[i];
   gather_groups(*comm_, body, place_of, model);
+  model.side_sets[broken_surface_name] = gather_sides(*comm_, body.mesh(), broken_surface, place_of);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() == 0) series_->start(model);
   });
@@ -372,10 +382,15 @@ void Results<dim>::start_file(const Body<dim>& body) {
 
 template <int dim>
 void Results<dim>::write_fields(const Body<dim>& body, const std::vector<double>& global_values) {
-  if (topology_written_ != body.counts().topologies) start_file(body);
-  topology_written_ = body.counts().topologies;
-
   const auto model = body.model();
+  const auto surface = bonds::broken_surface(body.mesh(), model.bonds);
+  const GlobalId n_broken_sides = base::sum(*comm_, static_cast<GlobalId>(surface.size()));  // it only grows
+  if (topology_written_ != body.counts().topologies || broken_sides_written_ != n_broken_sides) {
+    start_file(body, surface);
+  }
+  topology_written_ = body.counts().topologies;
+  broken_sides_written_ = n_broken_sides;
+
   io::ExodusStep step{body.load_factor(), global_values, {}, {}};
   for (int c = 0; c < dim; ++c) {
     std::vector<double> own;
@@ -411,5 +426,6 @@ std::vector<double> Results<dim>::in_file_order(const std::vector<double>& own_e
 }
 
 template class Results<2>;
+template class Results<3>;
 
 }  // namespace perimorph::fracture

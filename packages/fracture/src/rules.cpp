@@ -104,8 +104,8 @@ RulePtr whole_number() {
   return rule<int>("a whole number >= 0", [](int value) { return value >= 0; });
 }
 
-RulePtr exactly(int value, const std::string& reason) {
-  return rule<int>(fmt::format("{}: {}", value, reason), [value](int found) { return found == value; });
+RulePtr either(int one, int other) {
+  return rule<int>(fmt::format("{} or {}", one, other), [=](int found) { return found == one || found == other; });
 }
 
 RulePtr numbers(const std::string& what) {

@@ -53,7 +53,7 @@ RulePtr at_least(double low);
 RulePtr between(double low, double high);  ///< both excluded
 RulePtr count();                           ///< a whole number from 1
 RulePtr whole_number();                    ///< from 0
-RulePtr exactly(int value, const std::string& reason);
+RulePtr either(int one, int other);
 RulePtr numbers(const std::string& what);  ///< array; how many is checked with the dimension
 RulePtr names(const std::string& what);    ///< array of texts that are not empty
 

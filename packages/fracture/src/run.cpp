@@ -163,22 +163,38 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   for (int e = 0; e < mesh.n_owned_elements; ++e) elements_of_class[static_cast<int>(body.classes()[e])] += 1.;
   std::vector<double> sums(elements_of_class.begin(), elements_of_class.end());
   sums.push_back(peak_memory());
+  double n_points = 0.;  // with bonds; those on several ranks count on each, as their memory does
+  for (int e = 0; e < mesh.n_elements(); ++e) n_points += model.bonds.pairs_of(e).empty() ? 0 : model.points.count(e);
+  sums.insert(sums.end(), {static_cast<double>(model.bonds.n_bonds()), n_points,
+                           static_cast<double>(model.bonds.bytes()), static_cast<double>(body.bytes_of_operator())});
   base::sum(*comm, sums);
   n_bonds = base::sum(*comm, n_bonds);
   log->info("models           {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", sums[0], sums[1], sums[2],
             body.counts().dgfe_elements);
-  log->info("at the start     {} unknowns, {} bonds, {:.2f} GB with the assembled matrix", body.counts().unknowns,
-            n_bonds, sums[3] / 1e9);
+  log->info("at the start     {} unknowns, {} bonds, {:.2f} GB in all", body.counts().unknowns, n_bonds, sums[3] / 1e9);
+  if (sums[4] > 0.) {
+    log->info("memory           {:.0f} MB for bonds ({:.1f} bytes each, {:.0f} a point), {:.0f} MB for the operator",
+              sums[6] / 1e6, sums[6] / sums[4], 2. * sums[4] / sums[5], sums[7] / 1e6);
+  }
   log->info("The zone grows with the cracks, and unknowns, bonds and memory with it.");
+}
+
+/// Calls an action with the case's dimension as a constant: the one place where it is chosen.
+template <class Action>
+void with_dimension(const Case& input, Action action) {
+  if (input.dimension == 2) action(std::integral_constant<int, 2>());
+  if (input.dimension == 3) action(std::integral_constant<int, 3>());
 }
 
 }  // namespace
 
-void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk) { check_in<2>(comm, input, talk); }
+void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk) {
+  with_dimension(input, [&](auto dim) { check_in<dim>(comm, input, talk); });
+}
 
 void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk,
          Start start) {
-  run_in<2>(comm, input, folder, talk, start);
+  with_dimension(input, [&](auto dim) { run_in<dim>(comm, input, folder, talk, start); });
 }
 
 }  // namespace perimorph::fracture

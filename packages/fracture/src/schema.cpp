@@ -22,7 +22,10 @@ ParameterList& section(ParameterList& parent, const std::string& name, const std
 
 void declare_general(ParameterList& root) {
   root.set("Title", "", "A line about the case, for people.", any_text());
-  root.set("Dimension", 2, "Dimensions of space.", exactly(2, "three dimensions are not built yet"));
+  root.set("Dimension", 2,
+           "Dimensions of space. It decides how many numbers a point has, which elements the mesh needs, and which "
+           "elastic models and shapes of seeds and pre-cracks are allowed.",
+           either(2, 3));
   ParameterList& mesh = section(root, "Mesh", "Where the body comes from.");
   mesh.set(
       "File", "plate.geo",
@@ -48,12 +51,13 @@ void declare_material(ParameterList& root) {
   material.set(
       "Poisson's Ratio", 1. / 3.,
       "nu [-]. Bond-based peridynamics, with central forces between pairs of points, has one ratio only: 1/3 in "
-      "plane stress, 1/4 in plane strain. A value within 0.1 % of it (0.333) is taken as exactly that.",
+      "plane stress, 1/4 in plane strain and in three dimensions. A value within 0.1 % of it (0.333) is taken as "
+      "exactly that.",
       required(any_number()));
   material.set(
       "Elastic Model", "Plane Stress",
-      "What is assumed across the thickness, which is 1 [length]: thin plates are in plane stress, long bodies "
-      "in plane strain.",
+      "In two dimensions what is assumed across the thickness, which is 1 [length]: thin plates are in plane stress, "
+      "long bodies in plane strain. In three dimensions nothing is: \"Three-Dimensional\".",
       required(one_of(words(elastic_models))));
   material.set(
       "Critical Stretch", 0.05,
@@ -65,8 +69,9 @@ void declare_material(ParameterList& root) {
   material.set(
       "Fracture Energy", 0.1,
       "G_c [force/length]: the energy per area of new crack. The critical stretch is derived from it, in two "
-      "dimensions by G_c = s_crit^2 times the integral of c0(r) r^6 over r from 0 to the horizon, so that it stays "
-      "the same when the horizon or the characteristic length is changed. Data sheets give toughness K_c = sqrt(G_c "
+      "dimensions by G_c = s_crit^2 times the integral of c0(r) r^6 over r from 0 to the horizon, in three by pi/2 "
+      "s_crit^2 times that of c0(r) r^7, so that it stays the same when the horizon or the characteristic length is "
+      "changed. Data sheets give toughness K_c = sqrt(G_c "
       "E) in plane stress; K_c taken for G_c is wrong by orders of magnitude.",
       optional(above(0.)));
 }
@@ -76,7 +81,7 @@ void declare_peridynamics(ParameterList& root) {
   peridynamics.set(
       "Horizon", 1.5,
       "delta [length]: the longest bond. Three element sizes are usual. Much less leaves too few bonds, and "
-      "cracks follow the mesh; more costs with its square.",
+      "cracks follow the mesh; more costs with its square, in three dimensions with its cube.",
       required(above(0.)));
   peridynamics.set("Micromodulus", "Exponential",
                    "Stiffness of a bond over its length: c0(xi) = tau0 exp(-|xi|/l) [WHL19, eq. 24]; tau0 follows from "
@@ -97,15 +102,26 @@ void declare_seeds(ParameterList& morphing) {
               "crack may start: nothing breaks outside. Without any the body is classical throughout.");
   ParameterList& seed = section(seeds, "*", "One zone. The morphing function is 1 inside and falls to 0 around it.");
   seed.set("Shape", "Circle",
-           "\"Circle\" takes the center and the two radii, \"Box\" the corners and the rim, \"Everything\" nothing.",
+           "\"Circle\" (two dimensions) and \"Sphere\" (three) take the center and the two radii, \"Cylinder\" (three) "
+           "the ends "
+           "of its axis and the two radii, \"Box\" the corners and the rim, \"Everything\" nothing.",
            one_of(words(seed_shapes)));
-  seed.set("Center", Numbers{{0., 0.}}, "Of a circle: x_0 [length].", optional(numbers("a point such as {1.5, 2}")));
-  seed.set("Inner Radius", 4.,
-           "Of a circle: r_1 [length], up to which the morphing function is 1. Bonds break only where "
-           "it is 1 all around, up to a horizon away: take at least two horizons, or hardly any bond can break.",
-           optional(above(0.)));
+  seed.set("Center", Numbers{{0., 0.}}, "Of a circle or sphere: x_0 [length].",
+           optional(numbers("a point such as {1.5, 2}")));
+  seed.set("Start", Numbers{{0., 0., 0.}},
+           "Of a cylinder: one end of its axis [length]. Radii count from the axis, so "
+           "that the ends are round, and reach a radius further.",
+           optional(numbers("a point such as {1.5, 2, 0}")));
+  seed.set("End", Numbers{{0., 0., 10.}}, "Of a cylinder: the other end of its axis [length].",
+           optional(numbers("a point such as {1.5, 2, 0}")));
+  seed.set(
+      "Inner Radius", 4.,
+      "Of a circle, sphere or cylinder: r_1 [length], up to which the morphing function is 1. Bonds break only where "
+      "it is 1 all around, up to a horizon away: take at least two horizons, or hardly any bond can break.",
+      optional(above(0.)));
   seed.set("Outer Radius", 6.,
-           "Of a circle: r_2 [length], from which the morphing function is 0. A ring thinner than the horizon gives "
+           "Of a circle, sphere or cylinder: r_2 [length], from which the morphing function is 0. A ring thinner than "
+           "the horizon gives "
            "spurious forces where the models meet.",
            optional(above(0.)));
   seed.set("Lower Corner", Numbers{{-4., -4.}}, "Of a box: its smallest coordinates [length].",
@@ -149,10 +165,21 @@ void declare_pre_cracks(ParameterList& root) {
   ParameterList& cracks = section(root, "Pre-Cracks",
                                   "Cracks without width that are there from the start, each a list with a name of your "
                                   "choice. No bond crosses one, and elements part along it.");
-  section(cracks, "*", "One crack.")
-      .set("Points", Numbers{{0., 0., 10., 0.}},
-           "Its corners {x1, y1, x2, y2, ...} [length]. Element edges should lie along it.",
-           required(numbers("{x1, y1, x2, y2, ...}")));
+  ParameterList& crack = section(cracks, "*", "One crack.");
+  crack.set("Shape", "Polyline",
+            "\"Polyline\" (two dimensions) and \"Polygon\" (three; flat and convex) take the points, \"Disc\" (three) "
+            "center, "
+            "normal and radius.",
+            one_of(words(pre_crack_shapes)));
+  crack.set(
+      "Points", Numbers{{0., 0., 10., 0.}},
+      "Its corners {x1, y1, x2, y2, ...} [length], in three dimensions {x1, y1, z1, x2, ...}. Element edges, in three "
+      "dimensions faces, should lie along it.",
+      optional(numbers("{x1, y1, x2, y2, ...}")));
+  crack.set("Center", Numbers{{0., 0., 0.}}, "Of a disc [length].", optional(numbers("a point such as {1.5, 2, 0}")));
+  crack.set("Normal", Numbers{{0., 0., 1.}}, "Of a disc: the direction across it, of any length.",
+            optional(numbers("a direction such as {0, 0, 1}")));
+  crack.set("Radius", 5., "Of a disc [length].", optional(above(0.)));
 }
 
 void declare_displacements(ParameterList& conditions) {
@@ -162,7 +189,8 @@ void declare_displacements(ParameterList& conditions) {
               "of one group. In increment k it is Rate * k + Constant.");
   ParameterList& one = section(displacements, "*", "One component of one group.");
   one.set("Group", "left", "A physical group of the mesh.", required(text("the name of a group")));
-  one.set("Component", "x", "The direction held or moved; the others stay free.", required(one_of(words(components))));
+  one.set("Component", "x", "The direction held or moved; the others stay free. z in three dimensions only.",
+          required(one_of(words(components))));
   one.set("Rate", 0., "[length per increment]: what loads the body; 0 holds it. Its sign is that of the axis.",
           any_number());
   one.set("Constant", 0., "[length], there from the first increment on.", any_number());
@@ -178,11 +206,14 @@ void declare_boundary_conditions(ParameterList& root) {
   ParameterList& one = section(tractions, "*", "The traction on one group.");
   one.set("Group", "right", "A physical group of the mesh: part of its boundary.",
           required(text("the name of a group")));
-  one.set("Rate", Numbers(), "[stress per increment], one number per dimension; {} is zero.", numbers("{x, y}"));
-  one.set("Constant", Numbers(), "[stress], one number per dimension; {} is zero.", numbers("{x, y}"));
+  one.set("Rate", Numbers(), "[stress per increment], one number per dimension; {} is zero.",
+          numbers("{x, y} or {x, y, z}"));
+  one.set("Constant", Numbers(), "[stress], one number per dimension; {} is zero.", numbers("{x, y} or {x, y, z}"));
   ParameterList& body = section(conditions, "Body Force", "Force per volume: Rate * k + Constant in increment k.");
-  body.set("Rate", Numbers(), "[force/volume per increment], one number per dimension; {} is zero.", numbers("{x, y}"));
-  body.set("Constant", Numbers(), "[force/volume], one number per dimension; {} is zero.", numbers("{x, y}"));
+  body.set("Rate", Numbers(), "[force/volume per increment], one number per dimension; {} is zero.",
+           numbers("{x, y} or {x, y, z}"));
+  body.set("Constant", Numbers(), "[force/volume], one number per dimension; {} is zero.",
+           numbers("{x, y} or {x, y, z}"));
 }
 
 void declare_loading(ParameterList& root) {

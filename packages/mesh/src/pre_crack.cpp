@@ -177,6 +177,32 @@ bool is_open(const Mesh<dim>& mesh, const InnerSide& side) {
 
 }  // namespace
 
+std::vector<CrackFacet<2>> polyline(const std::vector<Point<2>>& corners) {
+  std::vector<CrackFacet<2>> segments;
+  for (std::size_t i = 1; i < corners.size(); ++i) segments.push_back({corners[i - 1], corners[i]});
+  return segments;
+}
+
+std::vector<CrackFacet<3>> polygon(const std::vector<Point<3>>& corners) {
+  std::vector<CrackFacet<3>> triangles;
+  for (std::size_t i = 2; i < corners.size(); ++i) triangles.push_back({corners[0], corners[i - 1], corners[i]});
+  return triangles;
+}
+
+std::vector<CrackFacet<3>> disc(const Point<3>& center, const Point<3>& normal, double radius) {
+  constexpr int n_sides = 64;
+  constexpr double pi = 3.14159265358979323846;
+  const Point<3> across = normal.normalized().unitOrthogonal(), along = normal.normalized().cross(across);
+  const double to_corner = radius / std::cos(pi / n_sides);
+  const auto corner = [&](int i) -> Point<3> {
+    const double angle = 2. * pi * (i % n_sides) / n_sides;
+    return center + to_corner * (std::cos(angle) * across + std::sin(angle) * along);
+  };
+  std::vector<CrackFacet<3>> triangles;
+  for (int i = 0; i < n_sides; ++i) triangles.push_back({center, corner(i), corner(i + 1)});
+  return triangles;
+}
+
 template <int dim>
 int open_along(Mesh<dim>& whole, const std::vector<CrackFacet<dim>>& crack) {
   const std::vector<InnerSide> inner = inner_sides(whole, Crack<dim>(crack));

@@ -16,6 +16,12 @@ Zone<dim> Zone<dim>::box(const base::Point<dim>& lower, const base::Point<dim>& 
 }
 
 template <int dim>
+Zone<dim> Zone<dim>::cylinder(const base::Point<dim>& start, const base::Point<dim>& end, double inner_radius,
+                              double outer_radius) {
+  return {start, end, inner_radius, outer_radius - inner_radius, Core::line};
+}
+
+template <int dim>
 Zone<dim> Zone<dim>::everything() {
   const auto infinite = base::Point<dim>::Constant(std::numeric_limits<double>::infinity());
   return {-infinite, infinite, 0., 1.};
@@ -23,12 +29,19 @@ Zone<dim> Zone<dim>::everything() {
 
 template <int dim>
 double Zone<dim>::alpha(const base::Point<dim>& x, Profile profile) const {
-  const base::Point<dim> outside = (lower - x).cwiseMax(x - upper).cwiseMax(0.);
-  const double distance = outside.norm() - inner_radius;
+  const double distance = distance_to_core(x) - inner_radius;
   if (distance <= 0.) return 1.;
   if (distance >= rim) return 0.;
   const double t = distance / rim;
   return profile == Profile::linear ? 1. - t : 1. - t * t * (3. - 2. * t);
+}
+
+template <int dim>
+double Zone<dim>::distance_to_core(const base::Point<dim>& x) const {
+  if (core == Core::box) return (lower - x).cwiseMax(x - upper).cwiseMax(0.).norm();
+  const base::Point<dim> line = upper - lower;
+  const double t = std::clamp(line.dot(x - lower) / line.squaredNorm(), 0., 1.);
+  return (x - lower - t * line).norm();
 }
 
 template <int dim>

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "example_meshes.hpp"
 
 namespace perimorph::mesh {
@@ -186,6 +188,29 @@ TEST(OpenAlong, EdgeSlitThroughTheThicknessOfASolidIsOpenOnThreeFaces) {
   EXPECT_EQ(opened, 4);
   EXPECT_EQ(mesh.n_nodes(), 5 * 3 * 3 + 6);
   EXPECT_EQ(n_nodes_at<3>(mesh, {2, 1, 1}), 1u);
+}
+
+TEST(Disc, ItsTrianglesHoldTheRimAndLittleMore) {
+  const Point<3> center(1., 2., 3.), normal(0.3, -0.4, 1.2);
+  constexpr double radius = 2., pi = 3.14159265358979323846;
+
+  const auto triangles = disc(center, normal, radius);
+
+  double area = 0.;
+  for (const auto& t : triangles) {
+    area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    for (const auto& corner : t) EXPECT_NEAR((corner - center).dot(normal), 0., 1e-12);
+    EXPECT_NEAR((0.5 * (t[1] + t[2]) - center).norm(), radius, 1e-12);  // sides touch the rim from outside
+  }
+  EXPECT_NEAR(area, pi * radius * radius, 1e-3 * area);
+}
+
+TEST(Disc, TheFacesInsideItAreOpened) {
+  Mesh<3> mesh = grid<3>({6, 6, 6});
+  // Of the 16 faces around the middle, those 4 whose corners all lie within 1.5.
+  EXPECT_EQ(open_along<3>(mesh, disc({3., 3., 3.}, {0., 0., 1.}, 1.5)), 4);
+  EXPECT_EQ(n_nodes_at<3>(mesh, {3., 3., 3.}), 2u);
+  EXPECT_EQ(n_nodes_at<3>(mesh, {4., 3., 3.}), 1u);
 }
 
 }  // namespace

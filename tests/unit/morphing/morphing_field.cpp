@@ -56,6 +56,17 @@ TEST(Zone, BallInSpaceIsRound) {
   EXPECT_NEAR(zone.alpha({4. / 3., 4. / 3., 2. / 3.}, Profile::linear), 0.5, rounding);  // distance 2
 }
 
+TEST(Zone, CylinderFallsAroundItsAxisAndItsRoundEnds) {
+  const auto zone = Zone<3>::cylinder({1., 0., 0.}, {1., 0., 10.}, 1., 3.);
+  const auto at = [&](double x, double y, double z) { return zone.alpha({x, y, z}, Profile::linear); };
+  EXPECT_EQ(at(1.6, 0.7, 5.), 1.);
+  EXPECT_NEAR(at(1., 2., 0.), 0.5, rounding);
+  EXPECT_NEAR(at(1., -2.5, 9.), 0.25, rounding);
+  EXPECT_NEAR(at(1., 0., 12.), 0.5, rounding);
+  EXPECT_NEAR(at(1., 1.2, -1.6), 0.5, rounding);
+  EXPECT_EQ(at(4., 0.1, 5.), 0.);
+}
+
 class MorphingField : public testing::Test {
  protected:
   mesh::Mesh<2> mesh = grid({10, 8, 10., 8.});

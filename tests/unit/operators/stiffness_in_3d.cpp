@@ -7,57 +7,19 @@
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 
-#include "perimorph/mesh/distribute.hpp"
 #include "perimorph/operators/coupled_stiffness.hpp"
 #include "perimorph/operators/matrix_free_stiffness.hpp"
+#include "support/meshes.hpp"
 
 namespace perimorph::tests {
 namespace {
-
-using Point3 = base::Point<3>;
-
-/// n x n x n cubes of side 1.
-mesh::Mesh<3> block(int n) {
-  mesh::Mesh<3> mesh;
-  mesh.block_names = {"body"};
-  const auto node = [&](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
-  for (int k = 0; k <= n; ++k) {
-    for (int j = 0; j <= n; ++j) {
-      for (int i = 0; i <= n; ++i) mesh.coordinates.emplace_back(i, j, k);
-    }
-  }
-  for (int k = 0; k < n; ++k) {
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
-        for (const int up : {k, k + 1}) {
-          for (const int corner : {node(i, j, up), node(i + 1, j, up), node(i + 1, j + 1, up), node(i, j + 1, up)}) {
-            mesh.corners.push_back(corner);
-          }
-        }
-        mesh.first_corner.push_back(static_cast<int>(mesh.corners.size()));
-        mesh.types.push_back(mesh::ElementType::hex8);
-        mesh.blocks.push_back(0);
-      }
-    }
-  }
-  for (int i = 0; i < mesh.n_nodes(); ++i) mesh.node_ids.push_back(i);
-  for (int e = 0; e < mesh.n_elements(); ++e) mesh.element_ids.push_back(e);
-  mesh.node_owners.assign(mesh.n_nodes(), 0);
-  mesh.element_owners.assign(mesh.n_elements(), 0);
-  mesh.n_owned_nodes = mesh.n_nodes();
-  mesh.n_owned_elements = mesh.n_elements();
-  mesh.n_global_nodes = mesh.n_nodes();
-  mesh.n_global_elements = mesh.n_elements();
-  mesh::find_boundary(mesh);
-  return mesh;
-}
 
 /// A block whose lower half is peridynamic, blending into classical elasticity above; all elements continuous.
 struct Block {
   static constexpr double youngs_modulus = 1000., horizon = 1.2;
   static constexpr auto model = materials::ElasticModel::three_dimensional;
   Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
-  mesh::Mesh<3> mesh = mesh::distribute(*comm, block(4), horizon);
+  mesh::Mesh<3> mesh = mesh::distribute(*comm, brick({4, 4, 4}), horizon);
   base::Stiffness<3> e0 = materials::elasticity_tensor<3>(model, youngs_modulus, 0.25);
   materials::Micromodulus c0 = materials::calibrate<3>(model, youngs_modulus, 0.3, horizon);
   elements::MaterialPoints<3> points{mesh};

@@ -38,14 +38,17 @@ class BondFamilies {
   bool is_active(int element) const { return active_[element]; }
 
   /// Points at the bond's ends, counted within their elements.
-  int first_end(Bond b) const { return ends_[b] / elements::max_points; }
-  int second_end(Bond b) const { return ends_[b] % elements::max_points; }
+  int first_end(Bond b) const { return (ends_[b] & ~broken_bit) / elements::max_points; }
+  int second_end(Bond b) const { return (ends_[b] & ~broken_bit) % elements::max_points; }
   /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; rounded
   /// to single precision, so that every form of the operator has the same bonds.
   double stiffness(Bond b) const { return stiffness_[b]; }
-  bool broken(Bond b) const { return broken_[b]; }
+  bool broken(Bond b) const { return (ends_[b] & broken_bit) != 0; }
   void set_broken(int pair, Bond b);
   int pair_of(Bond b) const;
+
+  /// Of memory, most of it 6 bytes a bond.
+  std::size_t bytes() const;
 
   /// The bond between two points of different elements, each told by element and number within it; n_bonds() if this
   /// rank has none. Local.
@@ -83,9 +86,9 @@ class BondFamilies {
   std::vector<ElementPair> pairs_;
   std::vector<Bond> first_bond_ = {0};
   std::vector<std::vector<int>> pairs_of_;
+  static constexpr unsigned broken_bit = 1u << 15;  ///< of ends_, the rest of which is below 27 * 27
   std::vector<std::uint16_t> ends_;
   std::vector<float> stiffness_;
-  std::vector<std::uint8_t> broken_;
   std::vector<double> family_volume_, lost_volume_;
   std::vector<char> damaged_;
 

@@ -21,13 +21,18 @@ class Visibility {
   /// The obstacles that come within `reach` of a point: candidates for blocks(). Local.
   std::vector<Facet> near(const base::Point<dim>& center, double reach) const;
 
+  /// Those of the facets that may cut a segment between two of the points: the others have all points on one side.
+  /// Local.
+  static std::vector<Facet> among(const std::vector<Facet>& facets, const std::vector<base::Point<dim>>& points);
+
   /// Whether one of the facets cuts the segment between x and p; touching counts.
   static bool blocks(const std::vector<Facet>& facets, const base::Point<dim>& x, const base::Point<dim>& p);
 
  private:
-  std::vector<Facet> facets_;
-  double largest_radius_ = 0.;  ///< of a facet, about its centroid
+  std::vector<Facet> boundary_;
+  double largest_radius_ = 0.;  ///< of a facet of the boundary, about its centroid
   std::unique_ptr<base::PointTree<dim>> tree_;
+  std::vector<Facet> pre_cracks_;  ///< few, and each may be as large as the body
 };
 
 }  // namespace perimorph::bonds

@@ -27,11 +27,9 @@ class MaterialPoints {
   /// Shape function values at the q-th point of an element, (n_corners).
   const CornerValues& shape(int element, int q) const { return references_[element]->shape[q]; }
 
-  /// dN/dx at the q-th point of an element, (dim, n_corners), [1/length].
-  Eigen::Map<const Eigen::Matrix<double, dim, Eigen::Dynamic>> gradients(int element, int q) const {
-    const int n = references_[element]->n_corners;
-    return {gradients_.data() + first_gradient_[element] + static_cast<std::size_t>(q) * dim * n, dim, n};
-  }
+  /// dN/dx at the q-th point of an element, (dim, n_corners), [1/length]. Computed anew, since stored they would be the
+  /// largest part of this: 192 bytes a point of a hexahedron.
+  ShapeGradients<dim> gradients(int element, int q) const;
 
   /// Global id of a point: the same on every rank and for every partition.
   base::GlobalId global_id(int element, int q) const {
@@ -44,8 +42,6 @@ class MaterialPoints {
   std::vector<int> first_;
   std::vector<base::Point<dim>> positions_;
   std::vector<double> weights_;
-  std::vector<std::size_t> first_gradient_;  ///< position of an element's first gradients
-  std::vector<double> gradients_;
 
   Eigen::Matrix<double, dim, dim> jacobian(int element, int q) const;
 };

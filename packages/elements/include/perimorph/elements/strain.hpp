@@ -28,8 +28,7 @@ constexpr std::pair<int, int> shear_axes(int component) {
 /// B: strain (Voigt) = B d, with d the corner displacements node by node, (n_voigt, dim * n).
 /// @param g shape function gradients, (dim, n), [1/length]
 template <int dim, int n>
-Eigen::Matrix<double, base::n_voigt<dim>, dim * n> strain_matrix(
-    const Eigen::Map<const Eigen::Matrix<double, dim, Eigen::Dynamic>>& g) {
+Eigen::Matrix<double, base::n_voigt<dim>, dim * n> strain_matrix(const ShapeGradients<dim>& g) {
   Eigen::Matrix<double, base::n_voigt<dim>, dim * n> b;
   b.setZero();
   for (int k = 0; k < n; ++k) {

@@ -13,7 +13,8 @@ namespace perimorph::fracture {
 
 using materials::ElasticModel;
 using operators::PeridynamicStiffness;
-enum class SeedShape { ball, box, everything };  ///< a ball is a circle in 2D, a sphere in 3D
+enum class SeedShape { ball, cylinder, box, everything };  ///< a ball is a circle in 2D, a sphere in 3D
+enum class PreCrackShape { polyline, polygon, disc };      ///< the first in 2D, the others in 3D
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
 enum class OperatorForm { crs, matrix_free };
@@ -24,15 +25,19 @@ struct Seed {
   std::string name;
   SeedShape shape;
   std::vector<double> center;                      ///< ball: (dim)
-  double inner_radius = 0., outer_radius = 0.;     ///< ball: r1, r2
+  std::vector<double> start, end;                  ///< cylinder: the ends of its axis, (dim)
+  double inner_radius = 0., outer_radius = 0.;     ///< ball, cylinder: r1, r2
   std::vector<double> lower_corner, upper_corner;  ///< box: (dim)
   double rim = 0.;                                 ///< box: width over which alpha falls from 1 to 0
 };
 
-/// A polyline (2D) along which there are no bonds and elements part.
+/// A polyline (2D), or a flat convex polygon or a disc (3D), along which there are no bonds and elements part.
 struct PreCrack {
   std::string name;
-  std::vector<double> points;  ///< x1 y1 x2 y2 ..., at least two points
+  PreCrackShape shape;
+  std::vector<double> points;          ///< polyline, polygon: corners, (n, dim) in a row
+  std::vector<double> center, normal;  ///< disc: (dim); the normal of any length
+  double radius = 0.;                  ///< disc
 };
 
 /// One displacement component of a group: rate * increment + constant, [length].

@@ -70,6 +70,7 @@ class Results {
   std::unique_ptr<io::History> history_;
   std::unique_ptr<io::ExodusSeries<dim>> series_;
   base::GlobalId broken_before_ = 0, topology_written_ = 0;  ///< none of an earlier run's: a new file
+  base::GlobalId broken_sides_written_ = 0;
   int first_break_ = 0;
   base::Pace pace_;
   double seconds_before_ = 0., last_word_ = 0.;  ///< elapsed at the last accepted increment, at the last line
@@ -84,7 +85,7 @@ class Results {
   double earlier_seconds_ = 0.;  ///< of the run that this one goes on with
   double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
   std::vector<double> globals(const Body<dim>& body) const;
-  void start_file(const Body<dim>& body);
+  void start_file(const Body<dim>& body, const std::vector<mesh::Side>& broken_surface);
   void write_fields(const Body<dim>& body, const std::vector<double>& global_values);
   std::vector<double> in_file_order(const std::vector<double>& own_elements) const;
 };

@@ -9,18 +9,27 @@ namespace perimorph::morphing {
 /// How alpha falls over the rim of a zone: 1 - t, or 1 - 3t^2 + 2t^3.
 enum class Profile { linear, cubic };
 
-/// A zone where alpha = 1: all points up to inner_radius from a box (a ball if the box is one point, the seed circle
-/// r1 or the growth circle r_i of WHL19); alpha falls to 0 over the next rim (r2 - r1). Lengths, [length].
+/// A zone where alpha = 1: all points up to inner_radius from its core, a box or a line; alpha falls to 0 over the next
+/// rim (r2 - r1). A ball, such as the seed circle r1 or the growth circle r_i of WHL19, is a box of one point.
+/// [length].
 template <int dim>
 struct Zone {
-  base::Point<dim> lower, upper;
+  enum class Core { box, line };
+  base::Point<dim> lower, upper;  ///< of a line: its ends
   double inner_radius, rim;
+  Core core = Core::box;
 
   static Zone ball(const base::Point<dim>& center, double inner_radius, double outer_radius);
   static Zone box(const base::Point<dim>& lower, const base::Point<dim>& upper, double rim);
+  /// Around the line from start to end; the ends are round.
+  static Zone cylinder(const base::Point<dim>& start, const base::Point<dim>& end, double inner_radius,
+                       double outer_radius);
   static Zone everything();
 
   double alpha(const base::Point<dim>& x, Profile profile) const;
+
+ private:
+  double distance_to_core(const base::Point<dim>& x) const;
 };
 
 /// FE: alpha = 0 in the whole neighbourhood; PD: alpha = 1 there; MORPH: all else [WHL19, eq. 18].

@@ -1,0 +1,176 @@
+"""The program in three dimensions: results, the broken surface, restart, check, and mistakes.
+
+    in_3d.py PERIMORPH MPIEXEC
+"""
+
+import unittest
+
+import netCDF4
+import numpy
+
+import driver
+import restart
+
+NX, NY, NZ = 10, 8, 2  # cubes of size 1
+
+
+def mesh():
+    """gmsh's format 2.2: block "body", the right face "right", the two left edges "lower" and "upper"."""
+    names = ['1 1 "lower"', '1 2 "upper"', '2 3 "right"', '3 4 "body"']
+    node = lambda i, j, k: (k * (NY + 1) + j) * (NX + 1) + i + 1
+    nodes = [f"{node(i, j, k)} {i} {j} {k}" for k in range(NZ + 1) for j in range(NY + 1) for i in range(NX + 1)]
+    ring = lambda i, j, k: [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)]
+    elements = [(1, group, [node(0, j, k), node(0, j, k + 1)]) for group, j in [(1, 0), (2, NY)] for k in range(NZ)]
+    elements += [(3, 3, [node(NX, j, k), node(NX, j + 1, k), node(NX, j + 1, k + 1), node(NX, j, k + 1)])
+                 for k in range(NZ) for j in range(NY)]
+    elements += [(5, 4, ring(i, j, k) + ring(i, j, k + 1)) for k in range(NZ) for j in range(NY) for i in range(NX)]
+    lines = [f"{n} {shape} 2 {group} {group} {' '.join(map(str, corners))}"
+             for n, (shape, group, corners) in enumerate(elements, 1)]
+    section = lambda name, lines: [f"${name}", str(len(lines)), *lines, f"$End{name}"]
+    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat"] + section("PhysicalNames", names)
+                     + section("Nodes", nodes) + section("Elements", lines) + [""])
+
+
+def case():
+    """The plate's case with a slit through the thickness."""
+    text = driver.CASE
+    for piece, by in [
+        ('<ParameterList name="Mesh">', '<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">'),
+        ("0.3333", "0.25"),
+        ("Plane Stress", "Three-Dimensional"),
+        ('<Parameter name="Center" type="Array(double)" value="{5, 6}"/>',
+         '<Parameter name="Shape" type="string" value="Cylinder"/>'
+         '<Parameter name="Start" type="Array(double)" value="{4, 4, 0}"/>'
+         '<Parameter name="End" type="Array(double)" value="{4, 4, 2}"/>'),
+        ('<Parameter name="Points" type="Array(double)" value="{0, 6, 5, 6}"/>',
+         '<Parameter name="Shape" type="string" value="Polygon"/>'
+         '<Parameter name="Points" type="Array(double)" value="{0, 4, 0, 4, 4, 0, 4, 4, 2, 0, 4, 2}"/>'),
+        ('<ParameterList name="pull down">',
+         '<ParameterList name="hold z"><Parameter name="Group" type="string" value="right"/>'
+         '<Parameter name="Component" type="string" value="z"/></ParameterList><ParameterList name="pull down">'),
+        ('name="Outer Radius" type="double" value="4"', 'name="Outer Radius" type="double" value="5"'),
+        ('"Increments" type="int" value="3"', f'"Increments" type="int" value="{INCREMENTS}"'),
+        ('value="-0.2"', 'value="-0.05"'),
+        ('name="Rate" type="double" value="0.2"', 'name="Rate" type="double" value="0.05"'),
+    ]:
+        assert piece in text, piece
+        text = text.replace(piece, by)
+    return text
+
+
+INCREMENTS = 14
+
+
+class InThreeDimensions(restart.Restart):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "plate.msh").write_text(mesh())
+        self.case.write_text(case())
+
+
+class Runs(InThreeDimensions):
+    def test_results_have_all_three_components(self):
+        self.run_until(INCREMENTS)
+
+        rows = [{key: float(value) for key, value in row.items()} for row in self.history()]
+        self.assertEqual(rows[0]["broken_bonds"], 0)
+        self.assertGreater(rows[-1]["broken_bonds"], 100)
+        for row in rows:
+            for c in "xyz":
+                forces = [row[f"reaction_{group}_{c}"] for group in ["upper", "lower", "right"]]
+                self.assertLess(abs(sum(forces)), 1e-5 * abs(row["reaction_upper_y"]))
+        with netCDF4.Dataset(self.series()[-1]) as file:
+            self.assertEqual(driver.text_of(file["name_nod_var"]), [f"displacement_{c}" for c in "xyz"])
+            for name in ["stress_zz", "stress_yz", "stress_xz"]:
+                self.assertIn(name, driver.text_of(file["name_elem_var"]))
+            self.assertEqual(file["connect1"].elem_type, "HEX8")
+            self.assertIn("body_DGFE", driver.text_of(file["eb_names"]))
+
+    def test_the_broken_surface_is_where_the_crack_runs(self):
+        """Both faces of the crack, elements' sides, are a side set; it is empty before the first break."""
+        sizes = []
+        for ranks in [1, 2]:
+            self.run_until(INCREMENTS, ranks=ranks)
+            with netCDF4.Dataset(self.series()[0]) as file:
+                self.assertEqual(self.surface(file).shape, (0, 4, 3))
+            with netCDF4.Dataset(self.series()[-1]) as file:
+                faces = self.surface(file)
+            self.assertGreater(len(faces), 3)
+            sizes.append(len(faces))
+            middle = faces.mean(axis=1)
+            self.assertLess(abs(middle[:, 1] - 4).max(), 1.6)  # straight on from the slit's tip at (4, 4)
+            self.assertGreater(middle[:, 0].min(), 3)
+            for face in middle:  # each has its counterpart on the other side of the crack
+                self.assertEqual((abs(middle - face).max(axis=1) < 1e-9).sum(), 2)
+        self.assertEqual(sizes[0], sizes[1])
+
+    HEX_SIDES = [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [0, 4, 7, 3], [0, 3, 2, 1], [4, 5, 6, 7]]
+
+    def surface(self, file):
+        """Corners of the faces, (faces, 4, 3)."""
+        number = driver.text_of(file["ss_names"]).index("broken_surface") + 1
+        if f"elem_ss{number}" not in file.variables:
+            return numpy.zeros((0, 4, 3))
+        corners = numpy.concatenate([file[f"connect{b}"][:] - 1 for b in range(1, len(file.dimensions["num_el_blk"]) + 1)])
+        places = numpy.column_stack([file[f"coord{c}"][:] for c in "xyz"])
+        return numpy.array([places[corners[e - 1][self.HEX_SIDES[s - 1]]]
+                            for e, s in zip(file[f"elem_ss{number}"][:], file[f"side_ss{number}"][:])])
+
+    def test_check_says_what_the_case_would_cost(self):
+        run = self.perimorph("check", self.case)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # 11 x 9 x 3 nodes, and 4 x 3 more along the slit, whose tip is closed.
+        for piece in ["160 elements, 309 nodes", "927 unknowns", "bonds", "memory"]:
+            self.assertIn(piece, run.stdout)
+
+
+class Continued(InThreeDimensions):
+    def test_on_as_many_ranks_a_restart_ends_with_the_same_bits(self):
+        for ranks, stops in [(1, [6, INCREMENTS - 2]), (2, [INCREMENTS - 1])]:
+            self.output = self.folder / f"whole-{ranks}"
+            self.run_until(INCREMENTS, *restart.EVERY, ranks=ranks)
+            whole = self.outcome()
+            self.assertGreater(float(whole[0][-1]["broken_bonds"]), 100)
+            self.output = self.folder / f"out-{ranks}"
+            for stop in stops:
+                with self.subTest(ranks=ranks, stop=stop):
+                    self.run_until(stop, *restart.EVERY, ranks=ranks)
+                    self.run_until(INCREMENTS, *restart.EVERY, "--restart", ranks=ranks)
+                    self.assert_same(self.outcome(), whole)
+
+    def test_on_other_ranks_the_same_bonds_break(self):
+        self.run_until(INCREMENTS)
+        alone = self.rows()
+        self.run_until(INCREMENTS - 1, ranks=3)
+        self.run_until(INCREMENTS, "--restart", ranks=2)
+        for row, other in zip(alone, self.rows(), strict=True):
+            for name in ["increment", "broken_bonds", "damaged_elements", "dgfe_elements", "unknowns"]:
+                self.assertEqual(row[name], other[name])
+
+
+class Mistakes(InThreeDimensions):
+    """Status 2 on any number of ranks, with a message that says where and what."""
+
+    def assert_refused(self, *pieces, options=()):
+        for ranks in [1, 2]:
+            run = self.run_case(*options, ranks=ranks)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            for piece in pieces:
+                self.assertIn(piece, run.stderr)
+
+    def test_a_mesh_of_two_dimensions(self):
+        (self.folder / "plate.msh").write_text(driver.mesh())
+        self.assert_refused("plate.msh: the mesh has no elements of dimension 3, its highest is 2")
+
+    def test_a_body_that_is_free_to_move(self):
+        self.case.write_text(case().replace('value="z"', 'value="x"').replace('"hold z"><Parameter name="Group" type="string" value="right"',
+                                                                              '"hold z"><Parameter name="Group" type="string" value="lower"'))
+        self.assert_refused("/Boundary Conditions/Displacements: the body can move as a whole: translation in z;")
+
+    def test_a_pre_crack_through_elements_outside_of_the_zone(self):
+        self.assert_refused("/Pre-Cracks: a pre-crack cuts through the element at (", "which is not peridynamic",
+                            options=["--set", "Pre-Cracks/slit/Points={0, 4.5, 0, 4, 4.5, 0, 4, 4.5, 2, 0, 4.5, 2}"])
+
+
+if __name__ == "__main__":
+    unittest.main()
