@@ -60,6 +60,7 @@ class Render(unittest.TestCase):
             (["-o", self.folder / "p.tiff"], 'found the ending ".tiff"; allowed are .png'),
             (["--field", "damge"], 'did you mean "damage"?'),
             (["--step", "99"], "not written; nearest are 7, 8, 9, 10"),
+            (["--slice", "z=1"], "--slice: only for three-dimensional runs"),
             (["--warp", "much"], '--warp much: expected a factor, or "auto"'),
         ]:
             drawn = self.render(*options)
