@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <Tpetra_Core.hpp>
 #include <fstream>
 
 #include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/mesh/pre_crack.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -17,7 +19,7 @@ namespace {
 
 int increments = 2000;
 
-constexpr const char* case_text = R"(<ParameterList name="soak">
+constexpr const char* case_text = R"xml(<ParameterList name="soak">
   <ParameterList name="Mesh"><Parameter name="File" type="string" value="not_read.msh"/></ParameterList>
   <ParameterList name="Material">
     <Parameter name="Young's Modulus" type="double" value="1000"/>
@@ -68,7 +70,7 @@ constexpr const char* case_text = R"(<ParameterList name="soak">
     <Parameter name="Checkpoint Every" type="int" value="100"/>
   </ParameterList>
 </ParameterList>
-)";
+)xml";
 
 /// Two arms, 60 long and 8 wide each, pulled apart at their ends: the longer the crack, the softer they are, so that it
 /// grows by little in each increment.
@@ -85,7 +87,7 @@ double heap_in_use() {
 }
 
 /// All parts of a run, as fracture::run makes them.
-struct Run {
+struct WholeRun {
   Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
   base::Profile profile;
   fracture::Problem<2> problem;
@@ -94,10 +96,10 @@ struct Run {
   fracture::Body<2> body;
   fracture::Results<2> results;
 
-  Run(const fracture::Case& input, const std::string& folder)
+  WholeRun(const fracture::Case& input, const std::string& folder)
       : problem(fracture::make_problem<2>(input)),
         checkpoints(comm, input, folder, base::silent_log()),
-        mesh(read(input)),
+        mesh(read()),
         body(comm, mesh, problem, fracture::body_options(input), profile),
         results(comm, input, folder, {base::silent_log(), false}, profile, checkpoints.increment(),
                 checkpoints.results()) {
@@ -111,7 +113,7 @@ struct Run {
   }
 
  private:
-  mesh::Mesh<2> read(const fracture::Case& input) {
+  mesh::Mesh<2> read() {
     checkpoints.load();
     mesh::Mesh<2> whole = arms();
     mesh::open_along<2>(whole, problem.pre_cracks);
@@ -130,7 +132,7 @@ TEST(Soak, ALongRunHoldsNoMoreThanOneThatStartsFromItsLastCheckpoint) {
   int increments_with_breaks = 0;
   base::GlobalId broken = 0;
   {
-    Run run(input, folder.path());
+    WholeRun run(input, folder.path());
     fmt::print("{:>10} {:>12} {:>12} {:>10} {:>10} {:>16}\n", "increment", "broken", "bonds", "unknowns", "heap, MB",
                "bytes per bond");
     for (int increment = increments / 20; increment <= increments; increment += increments / 20) {
@@ -146,7 +148,7 @@ TEST(Soak, ALongRunHoldsNoMoreThanOneThatStartsFromItsLastCheckpoint) {
   }
   const double left = heap_in_use();
   {
-    const Run run(input, folder.path());
+    const WholeRun run(input, folder.path());
     afresh = heap_in_use();
     EXPECT_EQ(run.body.counts().broken_bonds, broken);
   }
