@@ -213,7 +213,7 @@ void declare_solver(ParameterList& root) {
       "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
       one_of(words(preconditioner_matrices)));
   solver.set(
-      "Short-Range Cut-Off", 0.6,
+      "Short-Range Cut-Off", 0.5,
       "Longest bond in the short-range matrix, in horizons [-]. Below the distance of points in neighbouring elements "
       "the preconditioner is useless.",
       between(0., 1.));
@@ -237,7 +237,9 @@ void declare_solver(ParameterList& root) {
              "than they would have with a new one [-]: what a set-up costs, in iterations.",
              at_least(0.));
   section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
-  section(solver, "MueLu", "Any parameters of MueLu, handed on as they are, over the program's own.");
+  section(
+      solver, "MueLu",
+      "Any parameters of MueLu, handed on as they are, over the program's own. The V-cycle and its smoother are ours.");
 }
 
 void declare_output(ParameterList& root) {
