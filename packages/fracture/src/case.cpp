@@ -135,6 +135,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.increments = loading.get<int>("Increments");
   result.max_damage_iterations = loading.get<int>("Maximum Damage Iterations");
   result.max_zone_growths = loading.get<int>("Maximum Zone Growths");
+  result.breaking_fraction = loading.get<double>("Breaking Fraction");
   const ParameterList& solver = list.sublist("Solver");
   result.preconditioner_matrix = value_of(preconditioner_matrices, word(solver, "Preconditioner Matrix"));
   result.short_range_cut_off = solver.get<double>("Short-Range Cut-Off") * result.horizon;

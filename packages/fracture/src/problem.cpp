@@ -115,14 +115,15 @@ mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const
     if (file != input.mesh_file) mesh::mesh_geometry(input.mesh_file, file, dim);
     whole = mesh::read_mesh<dim>(file, input.mesh_scale);
     if (!problem.pre_cracks.empty()) mesh::open_along<dim>(whole, problem.pre_cracks);
-    check_against_mesh(input, whole);
+    check_against_mesh(input, problem.seeds, whole);
   });
   return whole;
 }
 
 template <int dim>
 mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem) {
-  return mesh::distribute(comm, whole, problem.has_zones() ? problem.micromodulus.horizon : 0.);
+  const bool is_uncracked_and_classical = !problem.has_zones() && problem.pre_cracks.empty();
+  return mesh::distribute(comm, whole, is_uncracked_and_classical ? 0. : problem.micromodulus.horizon);
 }
 
 template Problem<2> make_problem<2>(const Case&);

@@ -207,6 +207,13 @@ void declare_loading(ParameterList& root) {
       "Solutions within one increment, after which the run ends with status 3. An unstable crack takes hundreds to "
       "thousands.",
       count());
+  loading.set(
+      "Breaking Fraction", 1.,
+      "Which share of the bonds past the critical stretch breaks before the body is solved for again, the worst first "
+      "[-]. 1 breaks all of them, as WHL19 does. With less, bonds that the others would relieve are spared; an "
+      "unstable "
+      "crack takes so many more solutions.",
+      share());
   loading.set("Maximum Zone Growths", 5000,
               "Growths of the peridynamic zone within one increment, after which the run ends with status 3.", count());
 }
@@ -239,8 +246,8 @@ void declare_solver(ParameterList& root) {
       between(0., 1.));
   solver.set(
       "Maximum Iterations", 500,
-      "Of conjugate gradients in one solution. When they do not suffice, the system is tried once more with another "
-      "preconditioner; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
+      "Of conjugate gradients in one solution. When they do not suffice, the system is tried twice more with other "
+      "preconditioners; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
       count());
   solver.set("Renewal Cost", 50.,
              "The preconditioner is renewed when, since its last set-up, solutions have taken so many iterations more "

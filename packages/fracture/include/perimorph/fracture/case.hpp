@@ -88,6 +88,7 @@ struct Case {
   int increments;
   int max_damage_iterations;  ///< solves within one increment
   int max_zone_growths;       ///< changes of topology within one increment
+  double breaking_fraction;   ///< share of the overstretched bonds that break between two solves
 
   OperatorForm operator_form;
   PreconditionerMatrix preconditioner_matrix;

@@ -67,10 +67,13 @@ class Results {
   Teuchos::RCP<const base::Comm> comm_;
   Voice voice_;
   base::Profile& profile_;
+  double horizon_;
   int output_every_, last_increment_;
   std::vector<Reaction> reactions_;
   int shown_reaction_ = 0;  ///< in the lines on the terminal
   bool has_shown_a_line_ = false;
+  operators::Overlap<dim> overlap_;  ///< of the last accepted increment
+  bool has_warned_ = false;          ///< of an overlap
   std::unique_ptr<io::History> history_;
   std::unique_ptr<io::ExodusSeries<dim>> series_;
   std::unique_ptr<Exports<dim>> exports_;
@@ -86,6 +89,7 @@ class Results {
   void take_over(const ResultsState& earlier);
   void measure_reactions(int increment, const Body<dim>& body);
   void show_line(int increment, const Body<dim>& body);
+  void warn_of_overlap();
   double earlier_seconds_ = 0.;  ///< of the run that this one goes on with
   double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
   std::vector<double> globals(const Body<dim>& body) const;
