@@ -25,7 +25,7 @@ std::vector<T> from_root(const base::Comm& comm, const std::vector<T>& values) {
 /// write more.
 std::string deciding_lines(const Case& input) {
   constexpr const char* others[] = {"/Title",   "/Mesh/File",    "/Loading/Increments", "/Loading/Maximum",
-                                    "/Solver/", "/Output/Every", "/Output/Checkpoint"};
+                                    "/Solver/", "/Output/Every", "/Output/Checkpoint",  "/Output/Bonds"};
   std::istringstream all(listing(input.resolved));
   std::string deciding;
   for (std::string line; std::getline(all, line);) {

@@ -9,6 +9,7 @@
 #include "mistakes.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
+#include "perimorph/fracture/probes.hpp"
 
 namespace perimorph::fracture {
 
@@ -112,6 +113,7 @@ class Checks {
 
   void run() {
     check_groups();
+    check_probes();
     if (mistakes_.empty()) {  // the supports are known only then
       check_contradictions();
       check_free_motions();
@@ -158,6 +160,26 @@ class Checks {
       return fmt::format(" ({} is a group of elements)", in_quotes(group));
     }
     return mesh_.node_sets.count(group) != 0 ? fmt::format(" ({} has nodes only)", in_quotes(group)) : "";
+  }
+
+  // ---- probes ----
+
+  void check_probes() {
+    const elements::Locator<dim> locator(mesh_);
+    for (const auto& probe : input_.probes) {
+      for (const auto& x : places_of<dim>(probe)) {
+        if (locator.find(x)) continue;
+        const auto is_nearer = [&](const Point<dim>& a, const Point<dim>& b) {
+          return (a - x).norm() < (b - x).norm();
+        };
+        const auto& nearest = *std::min_element(mesh_.coordinates.begin(), mesh_.coordinates.end(), is_nearer);
+        add("/Output/Probes/" + probe.name + "/Points",
+            fmt::format(
+                "({:.6g}) is outside the body; allowed are places in it, the nearest node of which is at ({:.6g})",
+                fmt::join(x.begin(), x.end(), ", "), fmt::join(nearest.begin(), nearest.end(), ", ")));
+        break;  // one place of a line says enough
+      }
+    }
   }
 
   // ---- contradictions ----

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "columns.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/operators/fields.hpp"
 
@@ -17,16 +18,6 @@ namespace perimorph::fracture {
 using base::GlobalId;
 
 namespace {
-
-constexpr const char* axis_names[] = {"x", "y", "z"};
-
-template <int dim>
-const std::vector<std::string>& stress_names() {
-  static const std::vector<std::string> names =
-      dim == 2 ? std::vector<std::string>{"stress_xx", "stress_yy", "stress_xy"}
-               : std::vector<std::string>{"stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz", "stress_xy"};
-  return names;
-}
 
 template <int dim>
 typename io::ExodusSeries<dim>::Names variable_names(std::vector<std::string> globals) {
@@ -242,6 +233,7 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
   overlap_ = body.overlap();
   const auto values = globals(body);
   if (increment % output_every_ == 0 || new_breaks || increment == last_increment_) write_fields(body, values);
+  if (exports_) exports_->accept(increment, body);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
     std::vector<double> row = {static_cast<double>(increment)};

@@ -108,6 +108,16 @@ RulePtr whole_number() {
   return rule<int>("a whole number >= 0", [](int value) { return value >= 0; });
 }
 
+RulePtr flag() {
+  return rule<bool>("true or false", [](bool) { return true; });
+}
+
+RulePtr increments(const std::string& what) {
+  return rule<Teuchos::Array<int>>(what, [](const Teuchos::Array<int>& values) {
+    return std::all_of(values.begin(), values.end(), [](int value) { return value >= 1; });
+  });
+}
+
 RulePtr exactly(int value, const std::string& reason) {
   return rule<int>(fmt::format("{}: {}", value, reason), [value](int found) { return found == value; });
 }

@@ -7,6 +7,7 @@
 #include "perimorph/base/log.hpp"
 #include "perimorph/base/pace.hpp"
 #include "perimorph/fracture/body.hpp"
+#include "perimorph/fracture/exports.hpp"
 #include "perimorph/io/exodus.hpp"
 #include "perimorph/io/history.hpp"
 
@@ -37,6 +38,9 @@ class Results {
   /// @throws UserError if the folder cannot be written, or the earlier results are not there.
   Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Voice voice,
           base::Profile& profile, int increment = 0, const std::optional<ResultsState>& earlier = {});
+
+  /// Accepted increments are recorded by these too. Local.
+  void add_exports(std::unique_ptr<Exports<dim>> exports) { exports_ = std::move(exports); }
 
   /// What it has come to; complete on rank 0 only. Local.
   ResultsState state() const;
@@ -72,6 +76,7 @@ class Results {
   bool has_warned_ = false;          ///< of an overlap
   std::unique_ptr<io::History> history_;
   std::unique_ptr<io::ExodusSeries<dim>> series_;
+  std::unique_ptr<Exports<dim>> exports_;
   base::GlobalId broken_before_ = 0, topology_written_ = 0;  ///< none of an earlier run's: a new file
   int first_break_ = 0;
   base::Pace pace_;
