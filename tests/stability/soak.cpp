@@ -124,7 +124,9 @@ struct WholeRun {
 TEST(Soak, ALongRunHoldsNoMoreThanOneThatWentOnFromACheckpoint) {
   const TemporaryDirectory folder;
   std::ofstream(folder.file("soak.xml")) << case_text;
-  const auto input = fracture::read_case(folder.file("soak.xml"), {fmt::format("Loading/Increments={}", increments)});
+  const int stretch = increments / 20;
+  const auto input = fracture::read_case(folder.file("soak.xml"), {fmt::format("Loading/Increments={}", increments),
+                                                                   fmt::format("Output/Checkpoint Every={}", stretch)});
   const auto megabytes = [](double bytes) { return bytes / 1e6; };
 
   double at_the_end = 0., afresh = 0.;
