@@ -144,6 +144,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.damage_tolerance = solver.get<double>("Damage Tolerance");
   result.max_cg_iterations = solver.get<int>("Maximum Iterations");
   result.renewal_cost = solver.get<double>("Renewal Cost");
+  result.largest_imbalance = solver.get<double>("Largest Imbalance");
   result.belos = solver.sublist("Belos");
   result.muelu = solver.sublist("MueLu");
 }

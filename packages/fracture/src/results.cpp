@@ -212,7 +212,8 @@ void Results<dim>::take_over(const ResultsState& earlier) {
 
 template <int dim>
 ResultsState Results<dim>::state() const {
-  ResultsState state{seconds(), {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
+  ResultsState state{
+      seconds(), earlier_seconds_, {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
   if (series_) state.series = series_->extent();
   for (const auto& r : reactions_) {
     state.peaks.push_back(r.peak);

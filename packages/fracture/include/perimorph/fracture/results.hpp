@@ -21,7 +21,8 @@ struct Voice {
 
 /// What results have come to, for a run that goes on after them.
 struct ResultsState {
-  double seconds = 0.;  ///< since the start of the run
+  double seconds = 0.;         ///< since the start of the run
+  double seconds_before = 0.;  ///< of them, before this process was started
   io::SeriesExtent series;
   int first_break = 0;
   base::GlobalId broken = 0, solves = 0, iterations = 0;
