@@ -178,11 +178,11 @@ TEST(WorstFirst, SparesBondsThatOthersRelieve) {
     run.expect_severed();
     return run.rows.back();
   };
-  const Row all = severed(1.), half = severed(0.5), one = severed(1e-9);
+  const Row all = severed(1.), half = severed(0.5), tenth = severed(0.1);
   EXPECT_LT(half.broken, all.broken);
-  EXPECT_LE(one.broken, half.broken);
+  EXPECT_LE(tenth.broken, half.broken);
   EXPECT_GT(half.solves, all.solves);
-  EXPECT_GT(one.solves, half.solves);
+  EXPECT_GT(tenth.solves, half.solves);
 }
 
 TEST(Reversal, BrokenStaysBrokenAndNothingIsGained) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "perimorph/base/errors.hpp"
@@ -206,6 +207,10 @@ void Body<dim>::solve(Accuracy accuracy) {
   // A severed body has no reactions left that its residual could relate to: then these shares of the largest reaction
   // so far count, and of the largest that a first guess took, which moves the supports alone.
   constexpr double of_solution = 0.1, of_first_guess = 1e-4;
+  // A piece that hangs on bonds weaker than its anchors moves by little in each pass: then the anchors give way, by powers
+  // of two, so that they come back to the bit.
+  constexpr double slow = 0.5, loosening = 0x1p-10, loosest = 0x1p-30;
+  double anchors = 1., last_residual = std::numeric_limits<double>::infinity();
   const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
 
   if (!forces_are_current_) {  // a new load or topology: loads_ too
@@ -221,6 +226,11 @@ void Body<dim>::solve(Accuracy accuracy) {
       force_scale_ = std::max(force_scale_, of_solution * balance.reaction);
       break;
     }
+    if (balance.residual > slow * last_residual && anchors > loosest) {
+      stiffness_->scale_anchors(loosening);
+      anchors *= loosening;
+    }
+    last_residual = balance.residual;
     if (pass == max_passes) {
       throw base::ComputationError(
           fmt::format("the forces do not balance: residual {:.3e}, reactions {:.3e} after {} solves", balance.residual,
@@ -233,6 +243,7 @@ void Body<dim>::solve(Accuracy accuracy) {
     prescribe_displacements();  // exactly: corrections are zero there only up to rounding
     update_forces();
   }
+  if (anchors != 1.) stiffness_->scale_anchors(1. / anchors);
   record_work();
 }
 
