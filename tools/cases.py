@@ -38,9 +38,14 @@ def make_mesh(stem, geometry, *options):
         fail(f"gmsh could not mesh {stem}.geo")
 
 
-# Seconds; processor seconds of all ranks; memory in MB of the rank with most; the rows of history.csv; wall seconds of rank 0
-# by phase. Start and output are included.
-Run = collections.namedtuple("Run", "status wall processor memory history phases")
+class Run(collections.namedtuple("Run", "status wall processor memory history phases")):
+    """Exit status; wall seconds, and processor seconds of all ranks, start and output included; memory in MB of the rank
+    with most; the rows of history.csv; wall seconds of rank 0 by phase."""
+
+    @property
+    def solving(self):
+        """Wall seconds of set-up and solve: all but start, reading and writing."""
+        return self.phases["total"] - self.phases["read"] - self.phases["write"]
 
 
 def run(case, output, ranks=1, settings=(), ends=(0,)):
