@@ -1,7 +1,7 @@
 """Our solver, CHOLMOD, and PETSc's conjugate gradients with GAMG, on the same matrices and right-hand sides.
 
 Square bodies with a peridynamic zone of a twentieth of their area, horizon 3 elements: intact, with a crack of 20 elements,
-and while this crack advances by one element five times. From the crack on our solver and PETSc keep their preconditioner
+and while this crack advances by one element three times. From the crack on our solver and PETSc keep their preconditioner
 and begin at the last solution, CHOLMOD keeps its symbolic analysis. All reduce the residual to 1e-8 of the load, on one
 core; seconds of set-up and solution, without reading and assembling. Our operator is matrix-free, with multigrid from the
 short-range matrix; the others get the coupled matrix.

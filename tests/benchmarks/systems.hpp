@@ -21,7 +21,7 @@
 
 namespace perimorph::tests {
 
-constexpr int n_advances = 5;       ///< of the crack
+constexpr int n_advances = 3;       ///< of the crack
 constexpr double tolerance = 1e-8;  ///< residual over load, 2-norms
 
 struct Entry {
