@@ -2,6 +2,7 @@
 
 import glob
 import os
+import sys
 import xml.etree.ElementTree as ElementTree
 
 from cases import make_mesh, run
@@ -17,8 +18,11 @@ def ratio(value, other):
     return f"{value / other:.2f}"
 
 
-def measured(case, ranks=1, **options):
-    return run(case, os.path.splitext(case)[0] + f"-{ranks}", ranks, **options)
+def measured(case, folder, ranks, **options):
+    """A run, announced as a table comes only when all are done."""
+    name = os.path.splitext(os.path.basename(case))[0]
+    print(f"{name} on {ranks} rank{'s' if ranks > 1 else ''}", file=sys.stderr)
+    return run(case, os.path.join(folder, f"{name}-{ranks}"), ranks, **options)
 
 
 def print_iterations(folder, scale):
@@ -26,7 +30,7 @@ def print_iterations(folder, scale):
     sizes = [scale * unknowns for unknowns in (50e3, 200e3, 800e3)]
     rows = []
     for model, policy in [("FE only", POLICIES[0])] + [(m, p) for m in ("hybrid", "all peridynamic") for p in POLICIES]:
-        runs = [measured(square(folder, side_for(n, model, policy), model, policy), 2).history[-1] for n in sizes]
+        runs = [measured(square(folder, side_for(n, model, policy), model, policy), folder, 2).history[-1] for n in sizes]
         counts = [int(last["cg_iterations"]) for last in runs]
         cells = [model if model == "FE only" else f"{model}, {policy}"]
         for last, count, before in zip(runs, counts, [None] + counts):
@@ -40,7 +44,7 @@ def print_iterations(folder, scale):
 def print_zone(folder, scale):
     """What a small peridynamic zone costs."""
     n = side_for(1e6 * scale)
-    runs = {model: measured(square(folder, n, model), 2) for model in ("FE only", "hybrid")}
+    runs = {model: measured(square(folder, n, model), folder, 2) for model in ("FE only", "hybrid")}
     finite = runs["FE only"]
     rows = []
     for model, one in runs.items():
@@ -59,7 +63,7 @@ def print_ranks(folder, scale):
     """Speed-up by ranks, and whether they agree."""
     rows = []
     for model, unknowns in (("FE only", 8e5), ("hybrid", 8e5), ("all peridynamic", 2e5)):
-        runs = [measured(square(folder, side_for(scale * unknowns), model), ranks) for ranks in (1, 2, 4)]
+        runs = [measured(square(folder, side_for(scale * unknowns), model), folder, ranks) for ranks in (1, 2, 4)]
         energies = [float(one.history[-1]["elastic_energy"]) for one in runs]
         rows.append([f"{model}, {runs[0].history[-1]['unknowns']}", *(f"{one.solving:.2f}" for one in runs),
                      ratio(runs[0].solving, runs[1].solving), ratio(runs[0].wall, runs[1].wall),
@@ -95,14 +99,14 @@ def print_notch(folder, scale):
     runs = {}
     for model, seeds in (("hybrid", None), ("all peridynamic", everywhere)):
         case = double_notch(folder, "notch-" + model.replace(" ", "-"), seeds)
-        runs[model] = measured(case, 2, settings=[f"Loading/Maximum Damage Iterations={iterations}"],
+        runs[model] = measured(case, folder, 2, settings=[f"Loading/Maximum Damage Iterations={iterations}"],
                                ends=(STOPPED_AT_A_LIMIT,))
     hybrid = runs["hybrid"]
     rows = [[model, one.history[-1]["unknowns"], one.history[-1]["increment"], f"{one.wall:.1f}", f"{one.solving:.1f}",
              ratio(one.wall, hybrid.wall), ratio(one.solving, hybrid.solving), f"{one.memory:.0f}",
              ratio(one.memory, hybrid.memory)] for model, one in runs.items()]
-    print_table(f"Double notch, up to the first increment with {iterations} damage iterations, 2 ranks. Targets: all peridynamic "
-                "takes 10 times longer and 4 times more memory.",
+    print_table(f"Double notch, up to the first increment with {iterations} damage iterations, 2 ranks. Targets: all "
+                "peridynamic takes 10 times longer and 4 times more memory.",
                 ["model", "unknowns", "increments done", "wall [s]", "set-up and solve [s]", "wall / hybrid",
                  "set-up and solve / hybrid", "MB per rank", "/ hybrid"], rows)
 
@@ -111,15 +115,15 @@ def print_examples(folder, scale):
     """All of inputs/, from the first increment to the last."""
     rows = []
     for case in sorted(glob.glob(os.path.join(ROOT, "inputs", "*", "*.xml"))):
-        name = os.path.splitext(os.path.basename(case))[0]
-        one = run(case, os.path.join(folder, name), 2, ends=(0, STOPPED_AT_A_LIMIT))
-        last = one.history[-1]
+        one = measured(case, folder, 2, ends=(0, STOPPED_AT_A_LIMIT))
+        name, last = os.path.splitext(os.path.basename(case))[0], one.history[-1]
         longest = sorted((s, p) for p, s in one.phases.items() if p != "total")[:-4:-1]
         rows.append([name, last["increment"] + (", then stopped" if one.status else ""), last["broken_bonds"],
                      f"{one.wall:.1f}", f"{one.processor:.1f}", f"{one.memory:.0f}",
                      ", ".join(f"{phase} {seconds:.0f}" for seconds, phase in longest)])
     print_table("The examples on 2 ranks. Target: two minutes of wall time each.",
-                ["case", "increments", "broken bonds", "wall [s]", "processor [s]", "MB per rank", "longest phases [s]"], rows)
+                ["case", "increments", "broken bonds", "wall [s]", "processor [s]", "MB per rank", "longest phases [s]"],
+                rows)
 
 
 TABLES = {"iterations": print_iterations, "zone": print_zone, "ranks": print_ranks, "notch": print_notch,
