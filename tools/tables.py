@@ -3,6 +3,7 @@
 
 def print_table(title, columns, rows):
     """Rows of texts; the first column to the left, the others to the right."""
+    rows = list(rows)
     widths = [max(map(len, cells)) for cells in zip(columns, *rows)]
 
     def line(cells):
