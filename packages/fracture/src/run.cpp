@@ -11,6 +11,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/fracture/automatic_seeds.hpp"
 #include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
@@ -94,7 +95,7 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     Checkpoints<dim> checkpoints(comm, input, folder, log);
     if (start == Start::from_checkpoint) checkpoints.load();
     write_resolved(*comm, input, folder + "/resolved.xml");
-    const auto problem = make_problem<dim>(input);
+    auto problem = make_problem<dim>(input);
     const auto mesh = [&] {
       const auto timer = profile.measure(base::Phase::read);
       const auto whole = read_whole_mesh(*comm, input, problem, folder);
@@ -102,10 +103,14 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
       return distribute_mesh(*comm, whole, problem);
     }();
     describe(*comm, input, problem, mesh, log);
+    place_automatic_seeds(comm, mesh, input, problem, profile, log);
     Body<dim> body(comm, mesh, problem, body_options(input), profile);
     Results<dim> results(comm, input, folder, {log, talk == Talk::progress && comm->getRank() == 0}, profile,
                          checkpoints.increment(), checkpoints.results());
+    auto exports = std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment());
     checkpoints.restore(body);
+    if (checkpoints.increment() > 0) exports->take_over(body);
+    results.add_exports(std::move(exports));
     try {
       run_adaptive_loop(body, results, checkpoints,
                         {input.increments, input.max_damage_iterations, input.max_zone_growths});
@@ -144,13 +149,14 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   base::Profile profile;
   const TemporaryFolder folder;
   const auto log = base::make_log(*comm, talk == Talk::quiet);
-  const auto problem = make_problem<dim>(input);
+  auto problem = make_problem<dim>(input);
   const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
   const auto mesh = distribute_mesh(*comm, whole, problem);
   log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 
+  place_automatic_seeds(comm, mesh, input, problem, profile, log);
   Body<dim> body(comm, mesh, problem, body_options(input), profile);
   body.update_topology();
   const auto model = body.model();
