@@ -135,6 +135,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.increments = loading.get<int>("Increments");
   result.max_damage_iterations = loading.get<int>("Maximum Damage Iterations");
   result.max_zone_growths = loading.get<int>("Maximum Zone Growths");
+  result.breaking_fraction = loading.get<double>("Breaking Fraction");
   const ParameterList& solver = list.sublist("Solver");
   result.preconditioner_matrix = value_of(preconditioner_matrices, word(solver, "Preconditioner Matrix"));
   result.short_range_cut_off = solver.get<double>("Short-Range Cut-Off") * result.horizon;
@@ -143,6 +144,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.damage_tolerance = solver.get<double>("Damage Tolerance");
   result.max_cg_iterations = solver.get<int>("Maximum Iterations");
   result.renewal_cost = solver.get<double>("Renewal Cost");
+  result.largest_imbalance = solver.get<double>("Largest Imbalance");
   result.belos = solver.sublist("Belos");
   result.muelu = solver.sublist("MueLu");
 }

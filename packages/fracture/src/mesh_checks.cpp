@@ -106,7 +106,10 @@ struct Part {
 template <int dim>
 class Checks {
  public:
-  Checks(const Case& input, const mesh::Mesh<dim>& whole) : input_(input), mesh_(whole) {}
+  using Zones = std::vector<morphing::Zone<dim>>;
+
+  Checks(const Case& input, const Zones& seeds, const mesh::Mesh<dim>& whole)
+      : input_(input), seeds_(seeds), mesh_(whole) {}
 
   void run() {
     check_groups();
@@ -115,6 +118,7 @@ class Checks {
       check_contradictions();
       check_free_motions();
     }
+    check_horizon();
     if (!mistakes_.empty()) throw base::UserError(mistakes_.substr(1));
   }
 
@@ -239,7 +243,31 @@ class Checks {
                        fmt::join(low.begin(), low.end(), ", "), fmt::join(high.begin(), high.end(), ", "));
   }
 
+  // ---- the horizon ----
+
+  /// With a horizon that ends inside the element hardly any bond leads out of it, and the zone is no solid body.
+  void check_horizon() {
+    for (std::size_t s = 0; s < seeds_.size(); ++s) {
+      double largest = 0.;
+      Point<dim> center = Point<dim>::Zero();
+      for (int e = 0; e < mesh_.n_elements(); ++e) {
+        const Point<dim> x = mesh::centroid(mesh_, e);
+        const double reach = mesh::radius(mesh_, e);
+        if (reach <= largest || seeds_[s].alpha(x, input_.profile) < 1.) continue;
+        largest = reach;
+        center = x;
+      }
+      if (largest <= input_.horizon) continue;
+      add("/Peridynamics/Horizon",
+          fmt::format("found {:.6g}, but in the seed {} the element at ({:.6g}) reaches {:.6g} from its centre to its "
+                      "corners; allowed is no less than that (three element sizes are usual), or a finer mesh there",
+                      input_.horizon, in_quotes(input_.seeds[s].name), fmt::join(center.begin(), center.end(), ", "),
+                      largest));
+    }
+  }
+
   const Case& input_;
+  const Zones& seeds_;
   const mesh::Mesh<dim>& mesh_;
   std::string mistakes_;
 };
@@ -247,11 +275,12 @@ class Checks {
 }  // namespace
 
 template <int dim>
-void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole) {
-  Checks<dim>(input, whole).run();
+void check_against_mesh(const Case& input, const std::vector<morphing::Zone<dim>>& seeds,
+                        const mesh::Mesh<dim>& whole) {
+  Checks<dim>(input, seeds, whole).run();
 }
 
-template void check_against_mesh(const Case&, const mesh::Mesh<2>&);
-template void check_against_mesh(const Case&, const mesh::Mesh<3>&);
+template void check_against_mesh(const Case&, const std::vector<morphing::Zone<2>>&, const mesh::Mesh<2>&);
+template void check_against_mesh(const Case&, const std::vector<morphing::Zone<3>>&, const mesh::Mesh<3>&);
 
 }  // namespace perimorph::fracture

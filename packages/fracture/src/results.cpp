@@ -223,6 +223,7 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
       voice_(std::move(voice)),
       profile_(profile),
       is_spread_(input.spread_files),
+      horizon_(input.horizon),
       output_every_(input.output_every),
       last_increment_(input.increments) {
   for (const auto& group : input.reactions) {
@@ -231,7 +232,8 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
   if (earlier) take_over(*earlier);
   std::vector<std::string> globals = {"load_factor",    "broken_bonds",      "damaged_elements", "dgfe_elements",
                                       "unknowns",       "linear_solves",     "cg_iterations",    "wall_seconds",
-                                      "elastic_energy", "dissipated_energy", "external_work",    "jump_loss"};
+                                      "elastic_energy", "dissipated_energy", "external_work",    "jump_loss",
+                                      "overlap"};
   for (const auto& r : reactions_) globals.push_back("reaction_" + r.column);
   for (const auto& r : reactions_) globals.push_back("displacement_" + r.column);
 
@@ -279,7 +281,8 @@ void Results<dim>::take_over(const ResultsState& earlier) {
 
 template <int dim>
 ResultsState Results<dim>::state() const {
-  ResultsState state{seconds(), {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
+  ResultsState state{
+      seconds(), earlier_seconds_, {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
   if (series_) state.series = series_->extent();
   for (const auto& r : reactions_) {
     state.peaks.push_back(r.peak);
@@ -297,6 +300,7 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
   total_solves_ += body.counts().linear_solves;
   total_iterations_ += body.counts().cg_iterations;
   measure_reactions(increment, body);
+  overlap_ = body.overlap();
   const auto values = globals(body);
   if (increment % output_every_ == 0 || new_breaks || increment == last_increment_) write_fields(body, values);
   if (exports_) exports_->accept(increment, body);
@@ -306,6 +310,7 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
     row.insert(row.end(), values.begin(), values.end());
     history_->write(row);
     show_line(increment, body);
+    warn_of_overlap();
   });
   broken_before_ = broken;
   if (increment > 1) pace_.add(profile_.elapsed() - seconds_before_);
@@ -328,7 +333,8 @@ std::vector<double> Results<dim>::globals(const Body<dim>& body) const {
                                 energies.elastic,
                                 energies.dissipated,
                                 energies.external_work,
-                                energies.external_work - energies.elastic - energies.dissipated};
+                                energies.external_work - energies.elastic - energies.dissipated,
+                                overlap_.depth};
   for (const auto& r : reactions_) values.push_back(r.force);
   for (const auto& r : reactions_) values.push_back(r.displacement);
   return values;
@@ -377,6 +383,16 @@ void Results<dim>::show_line(int increment, const Body<dim>& body) {
                    body.load_factor(), reactions_.empty() ? 0. : reactions_[shown_reaction_].force,
                    counts.broken_bonds - broken_before_, counts.broken_bonds, counts.dgfe_elements, counts.unknowns,
                    counts.linear_solves, counts.cg_iterations, profile_.elapsed() - seconds_before_);
+}
+
+/// Once, as soon as it is more than the solver's tolerance can be.
+template <int dim>
+void Results<dim>::warn_of_overlap() {
+  constexpr double of_horizon = 1e-3;
+  if (has_warned_ || overlap_.depth <= of_horizon * horizon_) return;
+  has_warned_ = true;
+  voice_.log->warn("       crack faces overlap, by {:.3g} at ({:.6g}): there is no contact; see overlap in history.csv",
+                   overlap_.depth, fmt::join(overlap_.place.begin(), overlap_.place.end(), ", "));
 }
 
 template <int dim>

@@ -96,6 +96,10 @@ RulePtr between(double low, double high) {
                       [low, high](double value) { return value > low && value < high; });
 }
 
+RulePtr share() {
+  return rule<double>("a number > 0 and <= 1", [](double value) { return value > 0. && value <= 1.; });
+}
+
 RulePtr count() {
   return rule<int>("a whole number >= 1", [](int value) { return value >= 1; });
 }

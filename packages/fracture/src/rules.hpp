@@ -51,6 +51,7 @@ RulePtr any_number();
 RulePtr above(double low);
 RulePtr at_least(double low);
 RulePtr between(double low, double high);     ///< both excluded
+RulePtr share();                              ///< above 0, up to 1
 RulePtr count();                              ///< a whole number from 1
 RulePtr whole_number();                       ///< from 0
 RulePtr flag();                               ///< true or false

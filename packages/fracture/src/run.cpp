@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "balance.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/fracture/automatic_seeds.hpp"
@@ -82,6 +83,23 @@ void save_what_is_left(Checkpoints<dim>& checkpoints, spdlog::logger& log) {
   }
 }
 
+/// Goes on with one partition of the mesh, as far as it serves; returns whether the run is done.
+template <int dim>
+bool run_on(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+            const Problem<dim>& problem, const std::string& folder, const Voice& voice, base::Profile& profile,
+            Checkpoints<dim>& checkpoints) {
+  Body<dim> body(comm, mesh, problem, body_options(input), profile);
+  Results<dim> results(comm, input, folder, voice, profile, checkpoints.increment(), checkpoints.results());
+  auto exports = std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment());
+  checkpoints.restore(body);
+  if (checkpoints.increment() > 0) exports->take_over(body);
+  results.add_exports(std::move(exports));
+  const bool is_done = run_adaptive_loop(body, results, checkpoints,
+                                         {input.increments, input.max_damage_iterations, input.max_zone_growths});
+  if (is_done) results.summarize(body);
+  return is_done;
+}
+
 template <int dim>
 void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk,
             Start start) {
@@ -96,29 +114,27 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     if (start == Start::from_checkpoint) checkpoints.load();
     write_resolved(*comm, input, folder + "/resolved.xml");
     auto problem = make_problem<dim>(input);
-    const auto mesh = [&] {
+    const auto whole = [&] {
       const auto timer = profile.measure(base::Phase::read);
-      const auto whole = read_whole_mesh(*comm, input, problem, folder);
-      checkpoints.identify(whole);
-      return distribute_mesh(*comm, whole, problem);
+      auto mesh = read_whole_mesh(*comm, input, problem, folder);
+      checkpoints.identify(mesh);
+      checkpoints.expect_costs(expected_costs(mesh, problem));
+      return mesh;
     }();
+    const auto distribute = [&] {
+      const auto timer = profile.measure(base::Phase::read);
+      return distribute_mesh(*comm, whole, problem, checkpoints.costs());
+    };
+    auto mesh = distribute();
     describe(*comm, input, problem, mesh, log);
     place_automatic_seeds(comm, mesh, input, problem, profile, log);
-    Body<dim> body(comm, mesh, problem, body_options(input), profile);
-    Results<dim> results(comm, input, folder, {log, talk == Talk::progress && comm->getRank() == 0}, profile,
-                         checkpoints.increment(), checkpoints.results());
-    auto exports = std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment());
-    checkpoints.restore(body);
-    if (checkpoints.increment() > 0) exports->take_over(body);
-    results.add_exports(std::move(exports));
+    const Voice voice{log, talk == Talk::progress && comm->getRank() == 0};
     try {
-      run_adaptive_loop(body, results, checkpoints,
-                        {input.increments, input.max_damage_iterations, input.max_zone_growths});
+      while (!run_on(comm, mesh, input, problem, folder, voice, profile, checkpoints)) mesh = distribute();
     } catch (const base::ComputationError&) {
       save_what_is_left(checkpoints, *log);
       throw;
     }
-    results.summarize(body);
   } catch (const std::exception& error) {
     log->info("\n{}\n{}", error.what(), profile.table());
     throw;
@@ -151,7 +167,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   const auto log = base::make_log(*comm, talk == Talk::quiet);
   auto problem = make_problem<dim>(input);
   const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
-  const auto mesh = distribute_mesh(*comm, whole, problem);
+  const auto mesh = distribute_mesh(*comm, whole, problem, expected_costs(whole, problem));
   log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));

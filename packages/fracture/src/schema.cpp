@@ -207,6 +207,13 @@ void declare_loading(ParameterList& root) {
       "Solutions within one increment, after which the run ends with status 3. An unstable crack takes hundreds to "
       "thousands.",
       count());
+  loading.set(
+      "Breaking Fraction", 1.,
+      "Which share of the bonds past the critical stretch breaks before the body is solved for again, the worst first "
+      "[-]. 1 breaks all of them, as WHL19 does. With less, bonds that the others would relieve are spared; an "
+      "unstable "
+      "crack takes so many more solutions.",
+      share());
   loading.set("Maximum Zone Growths", 5000,
               "Growths of the peridynamic zone within one increment, after which the run ends with status 3.", count());
 }
@@ -223,7 +230,7 @@ void declare_solver(ParameterList& root) {
       "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
       one_of(words(preconditioner_matrices)));
   solver.set(
-      "Short-Range Cut-Off", 0.6,
+      "Short-Range Cut-Off", 0.5,
       "Longest bond in the short-range matrix, in horizons [-]. Below the distance of points in neighbouring elements "
       "the preconditioner is useless.",
       between(0., 1.));
@@ -239,15 +246,23 @@ void declare_solver(ParameterList& root) {
       between(0., 1.));
   solver.set(
       "Maximum Iterations", 500,
-      "Of conjugate gradients in one solution. When they do not suffice, the system is tried once more with another "
-      "preconditioner; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
+      "Of conjugate gradients in one solution. When they do not suffice, the system is tried twice more with other "
+      "preconditioners; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
       count());
   solver.set("Renewal Cost", 50.,
              "The preconditioner is renewed when, since its last set-up, solutions have taken so many iterations more "
              "than they would have with a new one [-]: what a set-up costs, in iterations.",
              at_least(0.));
+  solver.set(
+      "Largest Imbalance", 1.25,
+      "Elements are parted among the ranks by their number of bonds, and anew after an increment in which the zone "
+      "has grown and one rank has more than so many times the mean of the work [-]. Near 1 it costs more than it "
+      "saves.",
+      at_least(1.));
   section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
-  section(solver, "MueLu", "Any parameters of MueLu, handed on as they are, over the program's own.");
+  section(
+      solver, "MueLu",
+      "Any parameters of MueLu, handed on as they are, over the program's own. The V-cycle and its smoother are ours.");
 }
 
 void declare_probes(ParameterList& output) {

@@ -88,6 +88,7 @@ struct Case {
   int increments;
   int max_damage_iterations;  ///< solves within one increment
   int max_zone_growths;       ///< changes of topology within one increment
+  double breaking_fraction;   ///< share of the overstretched bonds that break between two solves
 
   OperatorForm operator_form;
   PreconditionerMatrix preconditioner_matrix;
@@ -96,6 +97,7 @@ struct Case {
   double damage_tolerance;     ///< the same while bonds break
   int max_cg_iterations;
   double renewal_cost;                  ///< of the preconditioner, in iterations
+  double largest_imbalance;             ///< of the ranks' work, before it is parted anew
   Teuchos::ParameterList belos, muelu;  ///< overrides, free-form
 
   int output_every;           ///< fields are written every so many increments, at every break, and at the last one

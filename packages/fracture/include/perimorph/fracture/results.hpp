@@ -23,7 +23,8 @@ struct Voice {
 
 /// What results have come to, for a run that goes on after them.
 struct ResultsState {
-  double seconds = 0.;  ///< since the start of the run
+  double seconds = 0.;         ///< since the start of the run
+  double seconds_before = 0.;  ///< of them, before this process was started
   io::SeriesExtent series;
   int first_break = 0;
   base::GlobalId broken = 0, solves = 0, iterations = 0;
@@ -87,10 +88,13 @@ class Results {
   Voice voice_;
   base::Profile& profile_;
   bool is_spread_;
+  double horizon_;
   int output_every_, last_increment_;
   std::vector<Reaction> reactions_;
   int shown_reaction_ = 0;  ///< in the lines on the terminal
   bool has_shown_a_line_ = false;
+  operators::Overlap<dim> overlap_;  ///< of the last accepted increment
+  bool has_warned_ = false;          ///< of an overlap
   std::unique_ptr<io::History> history_;
   std::unique_ptr<io::ExodusSeries<dim>> series_;
   std::unique_ptr<Exports<dim>> exports_;
@@ -108,6 +112,7 @@ class Results {
   void take_over(const ResultsState& earlier);
   void measure_reactions(int increment, const Body<dim>& body);
   void show_line(int increment, const Body<dim>& body);
+  void warn_of_overlap();
   double earlier_seconds_ = 0.;  ///< of the run that this one goes on with
   double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
   std::vector<double> globals(const Body<dim>& body) const;
