@@ -152,6 +152,7 @@ void take_solution(Case& result, const ParameterList& list) {
 /// Requires the displacements to be known.
 void take_output(Case& result, const ParameterList& output) {
   result.output_every = output.get<int>("Every");
+  result.spread_files = output.get<bool>("Spread Files");
   result.checkpoint_every = output.get<int>("Checkpoint Every");
   result.checkpoint_minutes = output.get<double>("Checkpoint Minutes");
   result.records_crack = output.get<bool>("Crack");

@@ -26,8 +26,9 @@ std::vector<T> from_root(const base::Comm& comm, const std::vector<T>& values) {
 /// The parameters that decide what a run computes, a line each. A run that goes on may go further, solve otherwise or
 /// write more.
 std::string deciding_lines(const Case& input) {
-  constexpr const char* others[] = {"/Title",   "/Mesh/File",    "/Loading/Increments", "/Loading/Maximum",
-                                    "/Solver/", "/Output/Every", "/Output/Checkpoint",  "/Output/Bonds"};
+  constexpr const char* others[] = {"/Title",        "/Mesh/File",    "/Loading/Increments", "/Loading/Maximum",
+                                    "/Solver/",      "/Output/Every", "/Output/Checkpoint",  "/Output/Bonds",
+                                    "/Output/Spread"};
   std::istringstream all(listing(input.resolved));
   std::string deciding;
   for (std::string line; std::getline(all, line);) {

@@ -118,9 +118,9 @@ void declare_seeds(ParameterList& morphing) {
            optional(numbers("a point such as {1.5, 2}")));
   seed.set(
       "Share", 0.8,
-      "Of an automatic seed [-]: each further local maximum of the strain that reaches this share of the largest, "
-      "and is farther than the outer radius from the others, gets a circle, too. 0.8 if not given; less gives more "
-      "zones, which cost bonds.",
+      "Of an automatic seed [-]: each place that reaches this share of the largest strain, and where it is the largest "
+      "up to the inner radius around, gets a circle, too. 0.8 if not given; less gives more zones, which cost "
+      "bonds.",
       optional(between(0., 1.)));
   seed.set("Rim", 2., "Of a box: the width around it over which the morphing function falls from 1 to 0 [length].",
            optional(above(0.)));
@@ -288,6 +288,12 @@ void declare_output(ParameterList& root) {
       "Fields are written every so many increments; those with a break and the last one are written anyway. 1 shows "
       "everything and may fill the disk in large runs.",
       count());
+  output.set(
+      "Spread Files", false,
+      "Whether each process writes the fields of its own elements, to case.e.N.0 up to case.e.N.<N-1> on N processes, "
+      "instead of one that gathers and writes all. For bodies that do not fit into the memory of one; tools/join makes "
+      "one file of them.",
+      flag());
   output.set(
       "Checkpoint Every", 0,
       "A checkpoint is written every so many increments; 0 is never. The run goes on from each of them as one that "

@@ -101,6 +101,7 @@ struct Case {
   Teuchos::ParameterList belos, muelu;  ///< overrides, free-form
 
   int output_every;           ///< fields are written every so many increments, at every break, and at the last one
+  bool spread_files;          ///< fields in a file of each rank
   int checkpoint_every;       ///< increments; 0: not by these
   double checkpoint_minutes;  ///< 0: not by time
   std::vector<std::string> reactions;  ///< groups whose reaction is recorded; default: all with prescribed displacement
@@ -128,5 +129,8 @@ std::string describe_schema();
 
 /// The same as a Markdown page, packages/PARAMETERS.md.
 std::string describe_schema_in_markdown();
+
+/// The schema in RELAX NG (XML syntax), for editors: names, types, and words where only some are allowed.
+std::string describe_schema_in_relax_ng();
 
 }  // namespace perimorph::fracture
