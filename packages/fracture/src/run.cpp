@@ -11,6 +11,8 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/fracture/advice.hpp"
+#include "perimorph/fracture/calibration.hpp"
 #include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
@@ -66,8 +68,10 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
   if (std::isinf(problem.critical_stretch)) {
     log->info("fracture         none: neither critical stretch nor fracture energy is given");
   } else {
-    log->info("fracture         critical stretch s_crit = {:.6g}, fracture energy G_c = {:.6g}",
-              problem.critical_stretch, problem.fracture_energy);
+    log->info("fracture         critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}",
+              problem.critical_stretch,
+              input.calibration == Calibration::analytic ? "by the integral," : "calibrated to the mesh,",
+              problem.fracture_energy);
   }
 }
 
@@ -94,11 +98,12 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     Checkpoints<dim> checkpoints(comm, input, folder, log);
     if (start == Start::from_checkpoint) checkpoints.load();
     write_resolved(*comm, input, folder + "/resolved.xml");
-    const auto problem = make_problem<dim>(input);
+    auto problem = make_problem<dim>(input);
     const auto mesh = [&] {
       const auto timer = profile.measure(base::Phase::read);
       const auto whole = read_whole_mesh(*comm, input, problem, folder);
       checkpoints.identify(whole);
+      calibrate_to_mesh(problem, input, element_size(*comm, whole, problem));
       return distribute_mesh(*comm, whole, problem);
     }();
     describe(*comm, input, problem, mesh, log);
@@ -144,8 +149,10 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   base::Profile profile;
   const TemporaryFolder folder;
   const auto log = base::make_log(*comm, talk == Talk::quiet);
-  const auto problem = make_problem<dim>(input);
+  auto problem = make_problem<dim>(input);
   const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
+  const double size = element_size(*comm, whole, problem);
+  calibrate_to_mesh(problem, input, size);
   const auto mesh = distribute_mesh(*comm, whole, problem);
   log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
@@ -170,6 +177,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   log->info("at the start     {} unknowns, {} bonds, {:.2f} GB with the assembled matrix", body.counts().unknowns,
             n_bonds, sums[3] / 1e9);
   log->info("The zone grows with the cracks, and unknowns, bonds and memory with it.");
+  for (const auto& line : advice(input, size)) log->warn("advice: {}: {}", input.file, line);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ using operators::PeridynamicStiffness;
 enum class SeedShape { ball, box, everything };  ///< a ball is a circle in 2D, a sphere in 3D
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
+enum class Calibration { analytic, mesh_consistent };  ///< of the critical stretch and the fracture energy
 enum class OperatorForm { crs, matrix_free };
 enum class PreconditionerMatrix { coupled, short_range };
 
@@ -62,6 +63,7 @@ struct Case {
   double youngs_modulus, poissons_ratio;
   ElasticModel elastic_model;
   std::optional<double> critical_stretch, fracture_energy;  ///< at most one; none: nothing breaks
+  Calibration calibration;
 
   double horizon, characteristic_length;
 
