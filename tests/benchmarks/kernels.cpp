@@ -110,7 +110,7 @@ void solve(benchmark::State& state, const operators::BondSelection& selection) {
 
 void solve_coupled(benchmark::State& state) { solve(state, operators::all_bonds); }
 void solve_short_range(benchmark::State& state) {
-  solve(state, operators::short_range(square().model(), *square().comm, 0.6 * 3.));
+  solve(state, operators::short_range(square().model(), *square().comm, 0.5 * 3.));
 }
 
 BENCHMARK(stream_triad)->Unit(benchmark::kMillisecond);

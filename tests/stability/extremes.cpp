@@ -142,8 +142,8 @@ TEST(Extremes, SliversOfAspectFifty) {
   WatchedRun run(specimen, "top", 1);
   EXPECT_GT(run.advance(1e-4).force, 0.);
   EXPECT_EQ(run.rows.back().broken, 0);
-  run.advance(1.);
-  EXPECT_GT(run.rows.back().broken, 1000);
+  run.advance_to(4., 4);  // bonds along the plate stretch by little when they are torn apart sideways
+  run.expect_severed();
 }
 
 /// Spacings that grow from one end to the other by a factor of 20 in all.

@@ -29,6 +29,7 @@ struct Specimen {
   bool is_proportional = true;
   double tolerance = 1e-10;  ///< residual over reaction forces
   double youngs_modulus = 1000.;
+  double breaking_fraction = 1.;  ///< share of the overstretched bonds that break between two solves
 };
 
 inline fracture::Problem<2> make_problem(const Specimen& specimen) {
@@ -54,6 +55,7 @@ inline fracture::BodyOptions make_options(const Specimen& specimen) {
   options.growth_inner_radius = 2. * specimen.horizon;
   options.growth_outer_radius = 4. * specimen.horizon;
   options.tolerance = options.damage_tolerance = specimen.tolerance;
+  options.breaking_fraction = specimen.breaking_fraction;
   return options;
 }
 

@@ -222,7 +222,7 @@ struct Handbook {
 
 class Griffith : public testing::TestWithParam<std::tuple<Handbook, double>> {};
 
-/// The defaults, over characteristic lengths of a fifth to a half of an element.
+/// The defaults, with characteristic lengths of a fifth (WHL19's) and a third of an element.
 TEST_P(Griffith, TheCrackRunsAtTheHandbooksLoad) {
   const auto [handbook, length] = GetParam();
   const Setting setting{length, length < 0.3 ? 3. : 4.};
@@ -236,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(
     Handbook, Griffith,
     testing::Combine(testing::Values(Handbook{"CentreCrack", centre_crack}, Handbook{"EdgeCrack", edge_crack},
                                      Handbook{"BentBeam", bent_beam}, Handbook{"DoubleCantilever", double_cantilever}),
-                     testing::Values(0.2, 1. / 3., 0.5)),
+                     testing::Values(0.2, 1. / 3.)),
     [](const auto& p) {
       return std::get<0>(p.param).name + std::to_string(static_cast<int>(100 * std::get<1>(p.param)));
     });

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "perimorph/fracture/calibration.hpp"
 
 namespace perimorph::fracture {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "perimorph/base/errors.hpp"
@@ -196,6 +197,7 @@ void Body<dim>::renumber() {
   last_u_.assign(displacement(), displacement() + owned_u_->getLocalLength());
   last_force_.assign(last_u_.size(), 0.);
   counts_.unknowns = dofs_->n_global_nodes() * dim;
+  facing_sides_ = operators::facing_sides(mesh_, discontinuous_);
 }
 
 template <int dim>
@@ -292,7 +294,7 @@ template <int dim>
 GlobalId Body<dim>::break_bonds() {
   const auto timer = profile_.measure(Phase::bonds);
   if (std::isinf(problem_.critical_stretch)) return 0;
-  const auto broken = bonds_.break_overstretched(at_points_, problem_.critical_stretch, classes_);
+  const auto broken = bonds_.break_overstretched(at_points_, breaking_stretch(), classes_);
   take_out(broken);
   ++break_calls_;
   if (!broken.empty()) broken_by_call_[break_calls_] = broken;
@@ -305,6 +307,19 @@ GlobalId Body<dim>::break_bonds() {
       base::sum(*comm_, static_cast<GlobalId>(std::count_if(broken.begin(), broken.end(), is_counted_here)));
   counts_.broken_bonds += n_broken;
   return n_broken;
+}
+
+/// The stretch from which bonds break now: the critical one, or that of the last bond among the worst. Those that
+/// stretch as far up to rounding, such as mirror images, go together.
+template <int dim>
+double Body<dim>::breaking_stretch() const {
+  constexpr double rounding = 1e-12;
+  if (options_.breaking_fraction >= 1.) return problem_.critical_stretch;
+  auto all = base::gather_on_all(*comm_, bonds_.overstretches(at_points_, problem_.critical_stretch, classes_));
+  if (all.empty()) return problem_.critical_stretch;
+  const auto n_worst = static_cast<long>(std::ceil(options_.breaking_fraction * static_cast<double>(all.size())));
+  std::nth_element(all.begin(), all.begin() + (n_worst - 1), all.end(), std::greater<>());
+  return std::max(problem_.critical_stretch, all[static_cast<std::size_t>(n_worst - 1)] - rounding);
 }
 
 template <int dim>
@@ -454,6 +469,19 @@ Energies Body<dim>::energies() const {
 }
 
 template <int dim>
+operators::Overlap<dim> Body<dim>::overlap() const {
+  const auto own = operators::largest_overlap(model(), facing_sides_, displacement());
+  std::vector<double> numbers = {own.depth};
+  numbers.insert(numbers.end(), own.place.begin(), own.place.end());
+  const auto all = base::gather_on_all(*comm_, numbers);
+  operators::Overlap<dim> largest;
+  for (auto one = all.begin(); one != all.end(); one += dim + 1) {
+    if (*one > largest.depth) largest = {*one, Eigen::Map<const Point<dim>>(&one[1])};
+  }
+  return largest;
+}
+
+template <int dim>
 operators::CoupledModel<dim> Body<dim>::model() const {
   return {mesh_, points_, bonds_, alpha_, elasticity_, *dofs_};
 }
@@ -478,6 +506,7 @@ BodyOptions body_options(const Case& input) {
   options.growth_inner_radius = input.growth_inner_radius;
   options.growth_outer_radius = input.growth_outer_radius;
   options.tolerance = input.tolerance;
+  options.breaking_fraction = input.breaking_fraction;
   options.damage_tolerance = std::max(input.damage_tolerance, input.tolerance);
   options.operator_form = input.operator_form;
   options.preconditioner_matrix = input.preconditioner_matrix;

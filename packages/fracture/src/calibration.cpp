@@ -35,20 +35,31 @@ double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffn
 }
 
 template <int dim>
-double element_size(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem) {
-  mesh::Mesh<dim> in_seeds;
-  in_seeds.coordinates = whole.coordinates;
-  for (int e = 0; e < whole.n_elements(); ++e) {
-    const auto center = mesh::centroid(whole, e);
+double element_size(const base::Comm& comm, const mesh::Mesh<dim>& body, const Problem<dim>& problem) {
+  mesh::Mesh<dim> in_seeds, all;
+  in_seeds.coordinates = all.coordinates = body.coordinates;
+  const auto add = [&](mesh::Mesh<dim>& part, int e) {
+    part.types.push_back(body.types[e]);
+    part.corners.insert(part.corners.end(), body.corners_of(e), body.corners_of(e) + body.n_corners(e));
+    part.first_corner.push_back(static_cast<int>(part.corners.size()));
+  };
+  for (int e = 0; e < body.n_owned_elements; ++e) {
+    const auto center = mesh::centroid(body, e);
     const bool is_in_a_seed = std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& seed) {
       return seed.alpha(center, morphing::Profile::linear) == 1.;
     });
-    if (!is_in_a_seed) continue;
-    in_seeds.types.push_back(whole.types[e]);
-    in_seeds.corners.insert(in_seeds.corners.end(), whole.corners_of(e), whole.corners_of(e) + whole.n_corners(e));
-    in_seeds.first_corner.push_back(static_cast<int>(in_seeds.corners.size()));
+    add(all, e);
+    if (is_in_a_seed) add(in_seeds, e);
   }
-  return base::sum(comm, mesh::mean_edge(in_seeds.n_elements() > 0 ? in_seeds : whole));  // 0 on ranks without a mesh
+  std::vector<double> sums;
+  for (const auto* part : {&in_seeds, &all}) {
+    sums.push_back(part->n_elements());
+    sums.push_back(part->n_elements() * mesh::mean_edge(*part));
+  }
+  base::sum(comm, sums);
+  // In single precision, so that the order of the sums on other numbers of ranks changes no bit of the critical
+  // stretch.
+  return static_cast<float>(sums[0] > 0. ? sums[1] / sums[0] : sums[3] / sums[2]);
 }
 
 template <int dim>

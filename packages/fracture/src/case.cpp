@@ -79,6 +79,8 @@ void take_material(Case& result, const ParameterList& list) {
   result.characteristic_length = peridynamics.get<double>("Characteristic Length");
 }
 
+constexpr double default_share = 0.8;  // of automatic seeds; the schema names it
+
 Seed seed_from(const std::string& name, const ParameterList& list) {
   Seed seed;
   seed.name = name;
@@ -89,6 +91,7 @@ Seed seed_from(const std::string& name, const ParameterList& list) {
   seed.lower_corner = numbers(list, "Lower Corner");
   seed.upper_corner = numbers(list, "Upper Corner");
   seed.rim = number(list, "Rim");
+  seed.share = list.isParameter("Share") ? list.get<double>("Share") : default_share;
   return seed;
 }
 
@@ -101,6 +104,11 @@ void take_zones(Case& result, const ParameterList& list) {
   result.growth_outer_radius = morphing.get<double>("Growth Outer Radius") * result.horizon;
   const ParameterList& seeds = morphing.sublist("Seeds");
   for (const auto& item : seeds) result.seeds.push_back(seed_from(item.first, seeds.sublist(item.first)));
+  for (Seed& seed : result.seeds) {
+    if (seed.shape != SeedShape::automatic) continue;
+    if (seed.inner_radius == 0.) seed.inner_radius = result.growth_inner_radius;
+    if (seed.outer_radius == 0.) seed.outer_radius = 2. * seed.inner_radius;
+  }
   const ParameterList& cracks = list.sublist("Pre-Cracks");
   for (const auto& item : cracks) {
     result.pre_cracks.push_back({item.first, numbers(cracks.sublist(item.first), "Points")});
@@ -128,6 +136,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.increments = loading.get<int>("Increments");
   result.max_damage_iterations = loading.get<int>("Maximum Damage Iterations");
   result.max_zone_growths = loading.get<int>("Maximum Zone Growths");
+  result.breaking_fraction = loading.get<double>("Breaking Fraction");
   const ParameterList& solver = list.sublist("Solver");
   result.preconditioner_matrix = value_of(preconditioner_matrices, word(solver, "Preconditioner Matrix"));
   result.short_range_cut_off = solver.get<double>("Short-Range Cut-Off") * result.horizon;
@@ -145,6 +154,13 @@ void take_output(Case& result, const ParameterList& output) {
   result.output_every = output.get<int>("Every");
   result.checkpoint_every = output.get<int>("Checkpoint Every");
   result.checkpoint_minutes = output.get<double>("Checkpoint Minutes");
+  result.records_crack = output.get<bool>("Crack");
+  result.bond_increments = output.get<Teuchos::Array<int>>("Bonds").toVector();
+  const ParameterList& probes = output.sublist("Probes");
+  for (const auto& item : probes) {
+    const ParameterList& probe = probes.sublist(item.first);
+    result.probes.push_back({item.first, numbers(probe, "Points"), probe.get<int>("Divisions")});
+  }
   result.reactions = output.get<Teuchos::Array<std::string>>("Reactions").toVector();
   if (!result.reactions.empty()) return;
   for (const auto& displacement : result.displacements) {

@@ -1,6 +1,7 @@
 #include "case_checks.hpp"
 
 #include <Teuchos_Array.hpp>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -102,26 +103,37 @@ void check_corners(const Section& seed, int dimension) {
   }
 }
 
-struct ShapeParameter {
+struct ShapeParameters {
   SeedShape shape;
-  const char* name;
+  std::vector<std::string> needed, allowed;
 };
-constexpr ShapeParameter shape_parameters[] = {{SeedShape::ball, "Center"},       {SeedShape::ball, "Inner Radius"},
-                                               {SeedShape::ball, "Outer Radius"}, {SeedShape::box, "Lower Corner"},
-                                               {SeedShape::box, "Upper Corner"},  {SeedShape::box, "Rim"}};
+
+const ShapeParameters& parameters_of(SeedShape shape) {
+  static const std::vector<ShapeParameters> all = {
+      {SeedShape::ball, {"Center", "Inner Radius", "Outer Radius"}, {}},
+      {SeedShape::box, {"Lower Corner", "Upper Corner", "Rim"}, {}},
+      {SeedShape::everything, {}, {}},
+      {SeedShape::automatic, {}, {"Inner Radius", "Outer Radius", "Share"}}};
+  return *std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.shape == shape; });
+}
 
 /// Each shape needs its own parameters and takes no others.
 void check_seed(const Section& seed, int dimension) {
   const std::string* word = seed.text("Shape");
   if (word == nullptr) return;
-  const SeedShape shape = value_of(seed_shapes, *word);
-  for (const auto& [owner, name] : shape_parameters) {
-    if (owner == shape && !seed.given(name)) {
+  const auto& [shape, needed, allowed] = parameters_of(value_of(seed_shapes, *word));
+  for (const char* name : {"Center", "Inner Radius", "Outer Radius", "Lower Corner", "Upper Corner", "Rim", "Share"}) {
+    const bool is_needed = std::count(needed.begin(), needed.end(), name) > 0;
+    const bool is_allowed = is_needed || std::count(allowed.begin(), allowed.end(), name) > 0;
+    if (is_needed && !seed.given(name)) {
       seed.mistake(name, fmt::format("missing; a seed with \"Shape\" \"{}\" needs it", *word));
-    } else if (owner != shape && seed.given(name)) {
+    } else if (!is_allowed && seed.given(name)) {
       seed.mistake(
           name, fmt::format("found in a seed with \"Shape\" \"{}\"; allowed is only what describes that shape", *word));
     }
+  }
+  if (shape == SeedShape::automatic && seed.given("Outer Radius") && !seed.given("Inner Radius")) {
+    seed.mistake("Inner Radius", "missing; an automatic seed with \"Outer Radius\" needs it");
   }
   check_order(seed, "Inner Radius", "Outer Radius");
   for (const char* name : {"Center", "Lower Corner", "Upper Corner"}) check_size(seed, name, dimension);
@@ -168,6 +180,13 @@ void check_load(const Section& load, int dimension) {
   }
 }
 
+void check_probe(const Section& probe, int dimension) {
+  const Numbers* points = probe.numbers("Points");
+  if (points == nullptr || (!points->empty() && points->size() % dimension == 0)) return;
+  probe.mistake("Points", fmt::format("found {} numbers; allowed are one point or more, {} numbers each",
+                                      points->size(), dimension));
+}
+
 void check_reactions(const Section& output) {
   const auto* groups = output.texts("Reactions");
   if (groups == nullptr) return;
@@ -197,6 +216,7 @@ void check_case(const Resolved& resolved, Mistakes& mistakes) {
   for (const Section& traction : conditions.subs("Tractions")) check_load(traction, dimension);
   check_load(conditions.sub("Body Force"), dimension);
   check_reactions(root.sub("Output"));
+  for (const Section& probe : root.sub("Output").subs("Probes")) check_probe(probe, dimension);
 }
 
 }  // namespace perimorph::fracture

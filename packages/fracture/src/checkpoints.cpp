@@ -24,8 +24,8 @@ std::vector<T> from_root(const base::Comm& comm, const std::vector<T>& values) {
 /// The parameters that decide what a run computes, a line each. A run that goes on may go further, solve otherwise or
 /// write more.
 std::string deciding_lines(const Case& input) {
-  constexpr const char* others[] = {"/Title",   "/Mesh/File",    "/Loading/",
-                                    "/Solver/", "/Output/Every", "/Output/Checkpoint"};
+  constexpr const char* others[] = {"/Title",   "/Mesh/File",    "/Loading/Increments", "/Loading/Maximum",
+                                    "/Solver/", "/Output/Every", "/Output/Checkpoint",  "/Output/Bonds"};
   std::istringstream all(listing(input.resolved));
   std::string deciding;
   for (std::string line; std::getline(all, line);) {

@@ -19,8 +19,10 @@ struct Choice {
 
 inline constexpr std::array<Choice<ElasticModel>, 2> elastic_models{
     {{"Plane Stress", ElasticModel::plane_stress}, {"Plane Strain", ElasticModel::plane_strain}}};
-inline constexpr std::array<Choice<SeedShape>, 3> seed_shapes{
-    {{"Circle", SeedShape::ball}, {"Box", SeedShape::box}, {"Everything", SeedShape::everything}}};
+inline constexpr std::array<Choice<SeedShape>, 4> seed_shapes{{{"Circle", SeedShape::ball},
+                                                               {"Box", SeedShape::box},
+                                                               {"Everything", SeedShape::everything},
+                                                               {"Automatic", SeedShape::automatic}}};
 inline constexpr std::array<Choice<MorphingProfile>, 2> morphing_profiles{
     {{"Linear", MorphingProfile::linear}, {"Cubic", MorphingProfile::cubic}}};
 inline constexpr std::array<Choice<DiscontinuousElements>, 2> discontinuous_elements{

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "columns.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/operators/fields.hpp"
 
@@ -17,16 +18,6 @@ namespace perimorph::fracture {
 using base::GlobalId;
 
 namespace {
-
-constexpr const char* axis_names[] = {"x", "y", "z"};
-
-template <int dim>
-const std::vector<std::string>& stress_names() {
-  static const std::vector<std::string> names =
-      dim == 2 ? std::vector<std::string>{"stress_xx", "stress_yy", "stress_xy"}
-               : std::vector<std::string>{"stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz", "stress_xy"};
-  return names;
-}
 
 template <int dim>
 typename io::ExodusSeries<dim>::Names variable_names(std::vector<std::string> globals) {
@@ -178,6 +169,7 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
     : comm_(comm),
       voice_(std::move(voice)),
       profile_(profile),
+      horizon_(input.horizon),
       output_every_(input.output_every),
       last_increment_(input.increments) {
   for (const auto& group : input.reactions) {
@@ -186,7 +178,8 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
   if (earlier) take_over(*earlier);
   std::vector<std::string> globals = {"load_factor",    "broken_bonds",      "damaged_elements", "dgfe_elements",
                                       "unknowns",       "linear_solves",     "cg_iterations",    "wall_seconds",
-                                      "elastic_energy", "dissipated_energy", "external_work",    "jump_loss"};
+                                      "elastic_energy", "dissipated_energy", "external_work",    "jump_loss",
+                                      "overlap"};
   for (const auto& r : reactions_) globals.push_back("reaction_" + r.column);
   for (const auto& r : reactions_) globals.push_back("displacement_" + r.column);
 
@@ -237,14 +230,17 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
   total_solves_ += body.counts().linear_solves;
   total_iterations_ += body.counts().cg_iterations;
   measure_reactions(increment, body);
+  overlap_ = body.overlap();
   const auto values = globals(body);
   if (increment % output_every_ == 0 || new_breaks || increment == last_increment_) write_fields(body, values);
+  if (exports_) exports_->accept(increment, body);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
     std::vector<double> row = {static_cast<double>(increment)};
     row.insert(row.end(), values.begin(), values.end());
     history_->write(row);
     show_line(increment, body);
+    warn_of_overlap();
   });
   broken_before_ = broken;
   if (increment > 1) pace_.add(profile_.elapsed() - seconds_before_);
@@ -267,7 +263,8 @@ std::vector<double> Results<dim>::globals(const Body<dim>& body) const {
                                 energies.elastic,
                                 energies.dissipated,
                                 energies.external_work,
-                                energies.external_work - energies.elastic - energies.dissipated};
+                                energies.external_work - energies.elastic - energies.dissipated,
+                                overlap_.depth};
   for (const auto& r : reactions_) values.push_back(r.force);
   for (const auto& r : reactions_) values.push_back(r.displacement);
   return values;
@@ -316,6 +313,16 @@ void Results<dim>::show_line(int increment, const Body<dim>& body) {
                    body.load_factor(), reactions_.empty() ? 0. : reactions_[shown_reaction_].force,
                    counts.broken_bonds - broken_before_, counts.broken_bonds, counts.dgfe_elements, counts.unknowns,
                    counts.linear_solves, counts.cg_iterations, profile_.elapsed() - seconds_before_);
+}
+
+/// Once, as soon as it is more than the solver's tolerance can be.
+template <int dim>
+void Results<dim>::warn_of_overlap() {
+  constexpr double of_horizon = 1e-3;
+  if (has_warned_ || overlap_.depth <= of_horizon * horizon_) return;
+  has_warned_ = true;
+  voice_.log->warn("       crack faces overlap, by {:.3g} at ({:.6g}): there is no contact; see overlap in history.csv",
+                   overlap_.depth, fmt::join(overlap_.place.begin(), overlap_.place.end(), ", "));
 }
 
 template <int dim>

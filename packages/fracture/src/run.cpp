@@ -12,6 +12,7 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/fracture/advice.hpp"
+#include "perimorph/fracture/automatic_seeds.hpp"
 #include "perimorph/fracture/calibration.hpp"
 #include "perimorph/mesh/read_mesh.hpp"
 
@@ -65,6 +66,16 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
             mesh.n_global_nodes, comm.getSize(), comm.getSize() == 1 ? "" : "s");
   log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
             problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
+}
+
+/// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds,
+/// whose size is returned. Collective.
+template <int dim>
+double place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+                           Problem<dim>& problem, base::Profile& profile, const base::Log& log) {
+  place_automatic_seeds(comm, mesh, input, problem, profile, log);
+  const double size = element_size(*comm, mesh, problem);
+  calibrate_to_mesh(problem, input, size);
   if (std::isinf(problem.critical_stretch)) {
     log->info("fracture         none: neither critical stretch nor fracture energy is given");
   } else {
@@ -73,6 +84,7 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
               input.calibration == Calibration::analytic ? "by the integral," : "calibrated to the mesh,",
               problem.fracture_energy);
   }
+  return size;
 }
 
 /// A computation that cannot go on can be continued by other means.
@@ -103,14 +115,17 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
       const auto timer = profile.measure(base::Phase::read);
       const auto whole = read_whole_mesh(*comm, input, problem, folder);
       checkpoints.identify(whole);
-      calibrate_to_mesh(problem, input, element_size(*comm, whole, problem));
       return distribute_mesh(*comm, whole, problem);
     }();
     describe(*comm, input, problem, mesh, log);
+    place_and_calibrate(comm, mesh, input, problem, profile, log);
     Body<dim> body(comm, mesh, problem, body_options(input), profile);
     Results<dim> results(comm, input, folder, {log, talk == Talk::progress && comm->getRank() == 0}, profile,
                          checkpoints.increment(), checkpoints.results());
+    auto exports = std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment());
     checkpoints.restore(body);
+    if (checkpoints.increment() > 0) exports->take_over(body);
+    results.add_exports(std::move(exports));
     try {
       run_adaptive_loop(body, results, checkpoints,
                         {input.increments, input.max_damage_iterations, input.max_zone_growths});
@@ -151,13 +166,12 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   const auto log = base::make_log(*comm, talk == Talk::quiet);
   auto problem = make_problem<dim>(input);
   const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
-  const double size = element_size(*comm, whole, problem);
-  calibrate_to_mesh(problem, input, size);
   const auto mesh = distribute_mesh(*comm, whole, problem);
   log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 
+  const double size = place_and_calibrate(comm, mesh, input, problem, profile, log);
   Body<dim> body(comm, mesh, problem, body_options(input), profile);
   body.update_topology();
   const auto model = body.model();

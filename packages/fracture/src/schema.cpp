@@ -109,21 +109,31 @@ void declare_seeds(ParameterList& morphing) {
               "crack may start: nothing breaks outside. Without any the body is classical throughout.");
   ParameterList& seed = section(seeds, "*", "One zone. The morphing function is 1 inside and falls to 0 around it.");
   seed.set("Shape", "Circle",
-           "\"Circle\" takes the center and the two radii, \"Box\" the corners and the rim, \"Everything\" nothing.",
+           "\"Circle\" takes the center and the two radii, \"Box\" the corners and the rim, \"Everything\" nothing. "
+           "\"Automatic\" needs nothing, and takes the radii and the share: circles are put where the elastic body is "
+           "stretched most (largest principal strain at the last increment's load) [WHL19, section 3.1]; the log tells "
+           "where.",
            one_of(words(seed_shapes)));
   seed.set("Center", Numbers{{0., 0.}}, "Of a circle: x_0 [length].", optional(numbers("a point such as {1.5, 2}")));
   seed.set("Inner Radius", 4.,
            "Of a circle: r_1 [length], up to which the morphing function is 1. Bonds break only where "
-           "it is 1 all around, up to a horizon away: take at least two horizons, or hardly any bond can break.",
+           "it is 1 all around, up to a horizon away: take at least two horizons, or hardly any bond can break. Of an "
+           "automatic seed the Growth Inner Radius if not given.",
            optional(above(0.)));
   seed.set("Outer Radius", 6.,
            "Of a circle: r_2 [length], from which the morphing function is 0. A ring thinner than the horizon gives "
-           "spurious forces where the models meet.",
+           "spurious forces where the models meet. Of an automatic seed twice the inner radius if not given.",
            optional(above(0.)));
   seed.set("Lower Corner", Numbers{{-4., -4.}}, "Of a box: its smallest coordinates [length].",
            optional(numbers("a point such as {1.5, 2}")));
   seed.set("Upper Corner", Numbers{{4., 4.}}, "Of a box: its largest coordinates [length].",
            optional(numbers("a point such as {1.5, 2}")));
+  seed.set(
+      "Share", 0.8,
+      "Of an automatic seed [-]: each further local maximum of the strain that reaches this share of the largest, "
+      "and is farther than the outer radius from the others, gets a circle, too. 0.8 if not given; less gives more "
+      "zones, which cost bonds.",
+      optional(between(0., 1.)));
   seed.set("Rim", 2., "Of a box: the width around it over which the morphing function falls from 1 to 0 [length].",
            optional(above(0.)));
 }
@@ -211,6 +221,13 @@ void declare_loading(ParameterList& root) {
       "Solutions within one increment, after which the run ends with status 3. An unstable crack takes hundreds to "
       "thousands.",
       count());
+  loading.set(
+      "Breaking Fraction", 1.,
+      "Which share of the bonds past the critical stretch breaks before the body is solved for again, the worst first "
+      "[-]. 1 breaks all of them, as WHL19 does. With less, bonds that the others would relieve are spared; an "
+      "unstable "
+      "crack takes so many more solutions.",
+      share());
   loading.set("Maximum Zone Growths", 5000,
               "Growths of the peridynamic zone within one increment, after which the run ends with status 3.", count());
 }
@@ -227,7 +244,7 @@ void declare_solver(ParameterList& root) {
       "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
       one_of(words(preconditioner_matrices)));
   solver.set(
-      "Short-Range Cut-Off", 0.6,
+      "Short-Range Cut-Off", 0.5,
       "Longest bond in the short-range matrix, in horizons [-]. Below the distance of points in neighbouring elements "
       "the preconditioner is useless.",
       between(0., 1.));
@@ -243,15 +260,33 @@ void declare_solver(ParameterList& root) {
       between(0., 1.));
   solver.set(
       "Maximum Iterations", 500,
-      "Of conjugate gradients in one solution. When they do not suffice, the system is tried once more with another "
-      "preconditioner; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
+      "Of conjugate gradients in one solution. When they do not suffice, the system is tried twice more with other "
+      "preconditioners; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
       count());
   solver.set("Renewal Cost", 50.,
              "The preconditioner is renewed when, since its last set-up, solutions have taken so many iterations more "
              "than they would have with a new one [-]: what a set-up costs, in iterations.",
              at_least(0.));
   section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
-  section(solver, "MueLu", "Any parameters of MueLu, handed on as they are, over the program's own.");
+  section(
+      solver, "MueLu",
+      "Any parameters of MueLu, handed on as they are, over the program's own. The V-cycle and its smoother are ours.");
+}
+
+void declare_probes(ParameterList& output) {
+  ParameterList& probes =
+      section(output, "Probes",
+              "Points and lines at which displacement and stress are recorded in probes.csv, each a "
+              "list with a name of your choice: a row for each increment and place.");
+  ParameterList& probe = section(probes, "*", "One probe. All its places must be in the body.");
+  probe.set("Points", Numbers{{0., 0., 10., 0.}},
+            "A point, or the corners of a line {x1, y1, x2, y2, ...} [length]. On a side that elements share, the "
+            "values are those of the element with the lowest number.",
+            required(numbers("{x1, y1, x2, y2, ...}")));
+  probe.set("Divisions", 1,
+            "Into how many equal parts each segment between a point and the next is divided; there is a place at every "
+            "end of a part. 1 is the points themselves.",
+            count());
 }
 
 void declare_output(ParameterList& root) {
@@ -277,6 +312,18 @@ void declare_output(ParameterList& root) {
       "Reactions", Texts(),
       "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed displacement.",
       names("a list of groups such as {left, right}"));
+  output.set(
+      "Crack", false,
+      "Whether the crack is recorded: in crack.csv its length for each increment, in crack_path.csv the sides of "
+      "elements that open in it. A side is open when more than half of the bonds between its two elements are broken. "
+      "The length is that of the open sides, and also of these projected onto the mean line of all open sides within "
+      "a horizon, which takes out the stairs of a slanting crack. Pre-cracks do not count.",
+      flag());
+  output.set("Bonds", Teuchos::Array<int>(),
+             "Increments after which all bonds are written, to bonds-<increment>.vtp for ParaView: positions, stretch, "
+             "broken or not. 60 bytes for each bond.",
+             increments("a list of increments such as {10, 20}"));
+  declare_probes(output);
 }
 
 }  // namespace

@@ -87,11 +87,11 @@ TEST(ElementSize, IsTheMeanEdgeInTheSeedsOnEveryRank) {
   Problem<2> problem = some_problem();
 
   problem.seeds = {tests::Zone<2>::box({0., 0.}, {4., 4.}, 2.)};
-  EXPECT_DOUBLE_EQ(element_size(*comm, whole, problem), 1.);
+  EXPECT_FLOAT_EQ(element_size(*comm, whole, problem), 1.);
   problem.seeds = {tests::Zone<2>::box({4., 0.}, {12., 4.}, 2.)};
-  EXPECT_DOUBLE_EQ(element_size(*comm, whole, problem), 1.5);
+  EXPECT_FLOAT_EQ(element_size(*comm, whole, problem), 1.5);
   problem.seeds = {tests::Zone<2>::ball({100., 100.}, 1., 2.)};  // nowhere: all elements count
-  EXPECT_DOUBLE_EQ(element_size(*comm, whole, problem), 1.25);
+  EXPECT_FLOAT_EQ(element_size(*comm, whole, problem), 1.25);
 }
 
 }  // namespace

@@ -16,9 +16,8 @@ double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffn
 
 /// Size of the elements in which cracks start: mean edge in the seeds, of all elements if there are none in them,
 /// [length]. Collective.
-/// @param whole the whole mesh on rank 0, empty on others
 template <int dim>
-double element_size(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem);
+double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
 
 /// With Calibration::mesh_consistent, divides the critical stretch by the lattice's resistance, so that a crack runs at
 /// K = sqrt(E G_c); where the critical stretch is given, changes the fracture energy accordingly. Local.

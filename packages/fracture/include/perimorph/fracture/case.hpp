@@ -13,7 +13,8 @@ namespace perimorph::fracture {
 
 using materials::ElasticModel;
 using operators::PeridynamicStiffness;
-enum class SeedShape { ball, box, everything };  ///< a ball is a circle in 2D, a sphere in 3D
+/// A ball is a circle in 2D, a sphere in 3D; automatic ones are balls where the elastic body is stretched most.
+enum class SeedShape { ball, box, everything, automatic };
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
 enum class Calibration { analytic, mesh_consistent };  ///< of the critical stretch and the fracture energy
@@ -25,9 +26,10 @@ struct Seed {
   std::string name;
   SeedShape shape;
   std::vector<double> center;                      ///< ball: (dim)
-  double inner_radius = 0., outer_radius = 0.;     ///< ball: r1, r2
+  double inner_radius = 0., outer_radius = 0.;     ///< ball, automatic: r1, r2
   std::vector<double> lower_corner, upper_corner;  ///< box: (dim)
   double rim = 0.;                                 ///< box: width over which alpha falls from 1 to 0
+  double share = 0.;                               ///< automatic: of the largest strain, that others must reach [-]
 };
 
 /// A polyline (2D) along which there are no bonds and elements part.
@@ -47,6 +49,13 @@ struct PrescribedDisplacement {
 struct Traction {
   std::string name, group;
   std::vector<double> rate, constant;
+};
+
+/// Points, and lines between them, at which displacement and stress are recorded.
+struct Probe {
+  std::string name;
+  std::vector<double> points;  ///< x1 y1 x2 y2 ..., at least one point, [length]
+  int divisions;               ///< of each segment between a point and the next
 };
 
 /// Everything that a case file says, complete and checked by itself (not yet against the mesh).
@@ -81,6 +90,7 @@ struct Case {
   int increments;
   int max_damage_iterations;  ///< solves within one increment
   int max_zone_growths;       ///< changes of topology within one increment
+  double breaking_fraction;   ///< share of the overstretched bonds that break between two solves
 
   OperatorForm operator_form;
   PreconditionerMatrix preconditioner_matrix;
@@ -95,6 +105,10 @@ struct Case {
   int checkpoint_every;       ///< increments; 0: not by these
   double checkpoint_minutes;  ///< 0: not by time
   std::vector<std::string> reactions;  ///< groups whose reaction is recorded; default: all with prescribed displacement
+
+  std::vector<Probe> probes;
+  bool records_crack;                ///< its size and path
+  std::vector<int> bond_increments;  ///< after which all bonds are written
 
   Teuchos::ParameterList resolved;  ///< every parameter with its value, defaults filled in
 };

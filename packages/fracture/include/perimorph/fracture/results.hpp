@@ -7,6 +7,7 @@
 #include "perimorph/base/log.hpp"
 #include "perimorph/base/pace.hpp"
 #include "perimorph/fracture/body.hpp"
+#include "perimorph/fracture/exports.hpp"
 #include "perimorph/io/exodus.hpp"
 #include "perimorph/io/history.hpp"
 
@@ -38,6 +39,9 @@ class Results {
   Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Voice voice,
           base::Profile& profile, int increment = 0, const std::optional<ResultsState>& earlier = {});
 
+  /// Accepted increments are recorded by these too. Local.
+  void add_exports(std::unique_ptr<Exports<dim>> exports) { exports_ = std::move(exports); }
+
   /// What it has come to; complete on rank 0 only. Local.
   ResultsState state() const;
 
@@ -63,12 +67,16 @@ class Results {
   Teuchos::RCP<const base::Comm> comm_;
   Voice voice_;
   base::Profile& profile_;
+  double horizon_;
   int output_every_, last_increment_;
   std::vector<Reaction> reactions_;
   int shown_reaction_ = 0;  ///< in the lines on the terminal
   bool has_shown_a_line_ = false;
+  operators::Overlap<dim> overlap_;  ///< of the last accepted increment
+  bool has_warned_ = false;          ///< of an overlap
   std::unique_ptr<io::History> history_;
   std::unique_ptr<io::ExodusSeries<dim>> series_;
+  std::unique_ptr<Exports<dim>> exports_;
   base::GlobalId broken_before_ = 0, topology_written_ = 0;  ///< none of an earlier run's: a new file
   int first_break_ = 0;
   base::Pace pace_;
@@ -81,6 +89,7 @@ class Results {
   void take_over(const ResultsState& earlier);
   void measure_reactions(int increment, const Body<dim>& body);
   void show_line(int increment, const Body<dim>& body);
+  void warn_of_overlap();
   double earlier_seconds_ = 0.;  ///< of the run that this one goes on with
   double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
   std::vector<double> globals(const Body<dim>& body) const;
