@@ -73,6 +73,7 @@ void take_material(Case& result, const ParameterList& list) {
   result.elastic_model = value_of(elastic_models, word(material, "Elastic Model"));
   result.critical_stretch = optional_number(material, "Critical Stretch");
   result.fracture_energy = optional_number(material, "Fracture Energy");
+  result.calibration = value_of(calibrations, word(material, "Calibration"));
   const ParameterList& peridynamics = list.sublist("Peridynamics");
   result.horizon = peridynamics.get<double>("Horizon");
   result.characteristic_length = peridynamics.get<double>("Characteristic Length");

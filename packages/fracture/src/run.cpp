@@ -12,7 +12,9 @@
 #include "balance.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/fracture/advice.hpp"
 #include "perimorph/fracture/automatic_seeds.hpp"
+#include "perimorph/fracture/calibration.hpp"
 #include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
@@ -65,12 +67,25 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
             mesh.n_global_nodes, comm.getSize(), comm.getSize() == 1 ? "" : "s");
   log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
             problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
+}
+
+/// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds,
+/// whose size is returned. Collective.
+template <int dim>
+double place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+                           Problem<dim>& problem, base::Profile& profile, const base::Log& log) {
+  place_automatic_seeds(comm, mesh, input, problem, profile, log);
+  const double size = element_size(*comm, mesh, problem);
+  calibrate_to_mesh(problem, input, size);
   if (std::isinf(problem.critical_stretch)) {
     log->info("fracture         none: neither critical stretch nor fracture energy is given");
   } else {
-    log->info("fracture         critical stretch s_crit = {:.6g}, fracture energy G_c = {:.6g}",
-              problem.critical_stretch, problem.fracture_energy);
+    log->info("fracture         critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}",
+              problem.critical_stretch,
+              input.calibration == Calibration::analytic ? "by the integral," : "calibrated to the mesh,",
+              problem.fracture_energy);
   }
+  return size;
 }
 
 /// A computation that cannot go on can be continued by other means.
@@ -127,7 +142,7 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     };
     auto mesh = distribute();
     describe(*comm, input, problem, mesh, log);
-    place_automatic_seeds(comm, mesh, input, problem, profile, log);
+    place_and_calibrate(comm, mesh, input, problem, profile, log);
     const Voice voice{log, talk == Talk::progress && comm->getRank() == 0};
     try {
       while (!run_on(comm, mesh, input, problem, folder, voice, profile, checkpoints)) mesh = distribute();
@@ -172,7 +187,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 
-  place_automatic_seeds(comm, mesh, input, problem, profile, log);
+  const double size = place_and_calibrate(comm, mesh, input, problem, profile, log);
   Body<dim> body(comm, mesh, problem, body_options(input), profile);
   body.update_topology();
   const auto model = body.model();
@@ -192,6 +207,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   log->info("at the start     {} unknowns, {} bonds, {:.2f} GB with the assembled matrix", body.counts().unknowns,
             n_bonds, sums[3] / 1e9);
   log->info("The zone grows with the cracks, and unknowns, bonds and memory with it.");
+  for (const auto& line : advice(input, size)) log->warn("advice: {}: {}", input.file, line);
 }
 
 }  // namespace

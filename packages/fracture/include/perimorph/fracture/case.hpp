@@ -17,6 +17,7 @@ using operators::PeridynamicStiffness;
 enum class SeedShape { ball, box, everything, automatic };
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
+enum class Calibration { analytic, mesh_consistent };  ///< of the critical stretch and the fracture energy
 enum class OperatorForm { crs, matrix_free };
 enum class PreconditionerMatrix { coupled, short_range };
 
@@ -71,6 +72,7 @@ struct Case {
   double youngs_modulus, poissons_ratio;
   ElasticModel elastic_model;
   std::optional<double> critical_stretch, fracture_energy;  ///< at most one; none: nothing breaks
+  Calibration calibration;
 
   double horizon, characteristic_length;
 
