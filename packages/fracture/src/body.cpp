@@ -208,9 +208,14 @@ void Body<dim>::solve(Accuracy accuracy) {
   // so far count, and of the largest that a first guess took, which moves the supports alone.
   constexpr double of_solution = 0.1, of_first_guess = 1e-4;
   // A piece that hangs on bonds weaker than its anchors moves by little in each pass: then the anchors give way, by
-  // powers of two, so that they come back to the bit.
+  // powers of two, so that they come back to the bit. A body with all its bonds hardly needs them, and a large one
+  // would feel them.
   constexpr double slow = 0.5, loosening = 0x1p-10, loosest = 0x1p-30;
   double anchors = 1., last_residual = std::numeric_limits<double>::infinity();
+  const auto loosen_anchors = [&] {
+    stiffness_->scale_anchors(loosening);
+    anchors *= loosening;
+  };
   const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
 
   if (!forces_are_current_) {  // a new load or topology: loads_ too
@@ -226,10 +231,8 @@ void Body<dim>::solve(Accuracy accuracy) {
       force_scale_ = std::max(force_scale_, of_solution * balance.reaction);
       break;
     }
-    if (balance.residual > slow * last_residual && anchors > loosest) {
-      stiffness_->scale_anchors(loosening);
-      anchors *= loosening;
-    }
+    if (counts_.broken_bonds == 0 && anchors == 1.) loosen_anchors();
+    if (balance.residual > slow * last_residual && anchors > loosest) loosen_anchors();
     last_residual = balance.residual;
     if (pass == max_passes) {
       throw base::ComputationError(

@@ -73,6 +73,7 @@ void take_material(Case& result, const ParameterList& list) {
   result.elastic_model = value_of(elastic_models, word(material, "Elastic Model"));
   result.critical_stretch = optional_number(material, "Critical Stretch");
   result.fracture_energy = optional_number(material, "Fracture Energy");
+  result.calibration = value_of(calibrations, word(material, "Calibration"));
   const ParameterList& peridynamics = list.sublist("Peridynamics");
   result.horizon = peridynamics.get<double>("Horizon");
   result.characteristic_length = peridynamics.get<double>("Characteristic Length");
@@ -144,6 +145,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.damage_tolerance = solver.get<double>("Damage Tolerance");
   result.max_cg_iterations = solver.get<int>("Maximum Iterations");
   result.renewal_cost = solver.get<double>("Renewal Cost");
+  result.largest_imbalance = solver.get<double>("Largest Imbalance");
   result.belos = solver.sublist("Belos");
   result.muelu = solver.sublist("MueLu");
 }
@@ -151,6 +153,7 @@ void take_solution(Case& result, const ParameterList& list) {
 /// Requires the displacements to be known.
 void take_output(Case& result, const ParameterList& output) {
   result.output_every = output.get<int>("Every");
+  result.spread_files = output.get<bool>("Spread Files");
   result.checkpoint_every = output.get<int>("Checkpoint Every");
   result.checkpoint_minutes = output.get<double>("Checkpoint Minutes");
   result.records_crack = output.get<bool>("Crack");

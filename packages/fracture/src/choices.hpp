@@ -29,6 +29,8 @@ inline constexpr std::array<Choice<DiscontinuousElements>, 2> discontinuous_elem
     {{"On Damage", DiscontinuousElements::on_damage}, {"Whole Zone", DiscontinuousElements::whole_zone}}};
 inline constexpr std::array<Choice<PeridynamicStiffness>, 2> peridynamic_stiffnesses{
     {{"Dropped", PeridynamicStiffness::dropped}, {"Kept", PeridynamicStiffness::kept}}};
+inline constexpr std::array<Choice<Calibration>, 2> calibrations{
+    {{"Analytic", Calibration::analytic}, {"Mesh-Consistent", Calibration::mesh_consistent}}};
 inline constexpr std::array<Choice<PreconditionerMatrix>, 2> preconditioner_matrices{
     {{"Coupled", PreconditionerMatrix::coupled}, {"Short-Range", PreconditionerMatrix::short_range}}};
 inline constexpr std::array<Choice<OperatorForm>, 2> operator_forms{

@@ -121,13 +121,15 @@ mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const
 }
 
 template <int dim>
-mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem) {
+mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+                                const std::vector<double>& costs) {
   const bool is_uncracked_and_classical = !problem.has_zones() && problem.pre_cracks.empty();
-  return mesh::distribute(comm, whole, is_uncracked_and_classical ? 0. : problem.micromodulus.horizon);
+  return mesh::distribute(comm, whole, is_uncracked_and_classical ? 0. : problem.micromodulus.horizon, costs);
 }
 
 template Problem<2> make_problem<2>(const Case&);
 template mesh::Mesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const Problem<2>&, const std::string&);
-template mesh::Mesh<2> distribute_mesh<2>(const base::Comm&, const mesh::Mesh<2>&, const Problem<2>&);
+template mesh::Mesh<2> distribute_mesh<2>(const base::Comm&, const mesh::Mesh<2>&, const Problem<2>&,
+                                          const std::vector<double>&);
 
 }  // namespace perimorph::fracture

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
+#include <tuple>
 
 #include "columns.hpp"
 #include "perimorph/base/errors.hpp"
@@ -43,14 +45,6 @@ int kind(const Body<dim>& body, int element) {
   return body.is_discontinuous(element) ? 3 : static_cast<int>(body.classes()[element]);
 }
 
-/// An element as it travels to rank 0.
-struct ElementRecord {
-  GlobalId id;
-  GlobalId nodes[mesh::max_corners];
-  int block, kind;
-  mesh::ElementType type;
-};
-
 template <int dim>
 std::vector<ElementRecord> own_elements(const Body<dim>& body) {
   std::vector<ElementRecord> records;
@@ -64,12 +58,22 @@ std::vector<ElementRecord> own_elements(const Body<dim>& body) {
   return records;
 }
 
+BlockKey key_of(const ElementRecord& record) { return {record.block, record.kind, record.type}; }
+
+/// Of all ranks' elements. Collective.
+std::set<BlockKey> all_keys(const base::Comm& comm, const std::vector<ElementRecord>& own) {
+  std::set<BlockKey> keys;
+  for (const auto& record : own) keys.insert(key_of(record));
+  const auto all = base::gather_on_all(comm, std::vector<BlockKey>(keys.begin(), keys.end()));
+  return {all.begin(), all.end()};
+}
+
 /// The type of each block's elements; of the two, if it has both triangles and quadrilaterals (or the like), the first.
-std::map<int, mesh::ElementType> first_types(const std::vector<ElementRecord>& records) {
+std::map<int, mesh::ElementType> first_types(const std::set<BlockKey>& keys) {
   std::map<int, mesh::ElementType> types;
-  for (const auto& record : records) {
-    auto& type = types.try_emplace(record.block, record.type).first->second;
-    type = std::min(type, record.type);
+  for (const auto& key : keys) {
+    auto& type = types.try_emplace(key.block, key.type).first->second;
+    type = std::min(type, key.type);
   }
   return types;
 }
@@ -77,26 +81,29 @@ std::map<int, mesh::ElementType> first_types(const std::vector<ElementRecord>& r
 /// Blocks by material, class and type, elements in each by id. Returns each record's place in the file. A block's name
 /// and id depend on these three only, not on the topology: 11, 12, 13, 14 are FE to DGFE of the mesh's first block.
 template <int dim>
-std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records,
+std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records, const std::set<BlockKey>& keys,
                                   const std::vector<std::string>& block_names, io::ExodusModel<dim>& model) {
+  const auto types = first_types(keys);
+  std::map<BlockKey, std::size_t> block_of;
+  for (const auto& key : keys) {
+    const bool is_second_type = key.type != types.at(key.block);
+    const int id = 10 * (key.block + 1) + key.kind + (is_second_type ? 5 : 1);
+    std::string name = block_names[key.block] + "_" + kind_names[key.kind];
+    if (is_second_type) name += "_" + mesh::exodus_name(key.type);
+    block_of[key] = model.blocks.size();
+    model.blocks.push_back({name, key.type, {}, {}, id});
+  }
   std::vector<int> order(records.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int i) { return std::make_tuple(records[i].block, records[i].kind, records[i].type); };
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : records[i].id < records[j].id; });
-  const auto types = first_types(records);
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    const auto &a = records[i], &b = records[j];
+    return std::tie(a.block, a.kind, a.type, a.id) < std::tie(b.block, b.kind, b.type, b.id);
+  });
   std::vector<int> place(records.size());
   for (std::size_t position = 0; position < order.size(); ++position) {
     const auto& record = records[order[position]];
     place[order[position]] = static_cast<int>(position);
-    if (position == 0 || key(order[position]) != key(order[position - 1])) {
-      const bool is_second_type = record.type != types.at(record.block);
-      const int id = 10 * (record.block + 1) + record.kind + (is_second_type ? 5 : 1);
-      std::string name = block_names[record.block] + "_" + kind_names[record.kind];
-      if (is_second_type) name += "_" + mesh::exodus_name(record.type);
-      model.blocks.push_back({name, record.type, {}, {}, id});
-    }
-    auto& block = model.blocks.back();
+    auto& block = model.blocks[block_of.at(key_of(record))];
     block.element_ids.push_back(record.id);
     for (int k = 0; k < mesh::n_corners(record.type); ++k)
       block.connectivity.push_back(static_cast<int>(record.nodes[k]));
@@ -115,6 +122,14 @@ std::vector<int> own_nodes_in(const Body<dim>& body, const std::vector<int>& ref
   return found;
 }
 
+/// By place in the file, whatever the ranks.
+void sort_sides(std::vector<mesh::Side>& sides) {
+  std::sort(sides.begin(), sides.end(), [](const mesh::Side& a, const mesh::Side& b) {
+    return std::tie(a.element, a.side) < std::tie(b.element, b.side);
+  });
+}
+
+/// Groups of own nodes and of own elements' sides, gathered on rank 0.
 template <int dim>
 void gather_groups(const base::Comm& comm, const Body<dim>& body, const std::map<GlobalId, int>& place_of,
                    io::ExodusModel<dim>& model) {
@@ -137,6 +152,7 @@ void gather_groups(const base::Comm& comm, const Body<dim>& body, const std::map
     auto& all = model.side_sets[name];
     for (const auto& record : base::gather_on_root(comm, own))
       all.push_back({place_of.at(record.element), record.side});
+    sort_sides(all);
   }
 }
 
@@ -161,6 +177,43 @@ std::vector<base::Point<dim>> gather_points(const base::Comm& comm, const std::v
   return points;
 }
 
+/// Local nodes of the elements that this rank owns, by ascending global number.
+template <int dim>
+std::vector<int> nodes_of_own_elements(const Body<dim>& body) {
+  const auto model = body.model();
+  std::map<GlobalId, int> nodes;
+  for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
+    for (int k = 0; k < body.mesh().n_corners(e); ++k) {
+      const int node = model.dofs.nodes_of(e)[k];
+      nodes[model.dofs.global_node(node)] = node;
+    }
+  }
+  std::vector<int> ordered;
+  for (const auto& [id, node] : nodes) ordered.push_back(node);
+  return ordered;
+}
+
+/// The groups within one rank's part. @param nodes its nodes; @param place of own elements
+template <int dim>
+void take_own_groups(const Body<dim>& body, const std::vector<int>& nodes, const std::vector<int>& place,
+                     io::ExodusModel<dim>& model) {
+  const auto& dofs = body.model().dofs;
+  for (const auto& [name, reference_nodes] : body.mesh().node_sets) {
+    auto& members = model.node_sets[name];
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (std::binary_search(reference_nodes.begin(), reference_nodes.end(), dofs.reference_node(nodes[n])))
+        members.push_back(static_cast<int>(n));
+    }
+  }
+  for (const auto& [name, sides] : body.mesh().side_sets) {
+    auto& members = model.side_sets[name];
+    for (const auto& side : sides) {
+      if (side.element < body.mesh().n_owned_elements) members.push_back({place[side.element], side.side});
+    }
+    sort_sides(members);
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -169,6 +222,7 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
     : comm_(comm),
       voice_(std::move(voice)),
       profile_(profile),
+      is_spread_(input.spread_files),
       horizon_(input.horizon),
       output_every_(input.output_every),
       last_increment_(input.increments) {
@@ -190,15 +244,30 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
     const std::string history = (std::filesystem::path(folder) / "history.csv").string();
     history_ = std::make_unique<io::History>(earlier ? io::History::resume(history, columns, increment)
                                                      : io::History(history, columns));
-    series_ =
-        std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
-                                                input.title, variable_names<dim>(globals), lines_of(input.resolved));
-    if (earlier) series_->resume(earlier->series);
+  });
+  open_series(input, folder, std::move(globals), earlier);
+}
+
+/// On rank 0, or for spread files on all. Collective.
+template <int dim>
+void Results<dim>::open_series(const Case& input, const std::string& folder, std::vector<std::string> globals,
+                               const std::optional<ResultsState>& earlier) {
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() != 0 && !is_spread_) return;
+    std::optional<io::SpreadPart> part;
+    if (is_spread_) part = io::SpreadPart{comm_->getRank(), comm_->getSize()};
+    series_ = std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
+                                                      input.title, variable_names<dim>(std::move(globals)),
+                                                      lines_of(input.resolved), part);
+    if (!earlier) return;
+    series_->resume(earlier->series);
+    if (comm_->getRank() == 0) series_->remove_the_rest();
   });
 }
 
 template <int dim>
 void Results<dim>::take_over(const ResultsState& earlier) {
+  first_file_is_new_ = false;
   earlier_seconds_ = earlier.seconds;
   first_break_ = earlier.first_break;
   broken_before_ = earlier.broken;
@@ -212,7 +281,8 @@ void Results<dim>::take_over(const ResultsState& earlier) {
 
 template <int dim>
 ResultsState Results<dim>::state() const {
-  ResultsState state{seconds(), {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
+  ResultsState state{
+      seconds(), earlier_seconds_, {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
   if (series_) state.series = series_->extent();
   for (const auto& r : reactions_) {
     state.peaks.push_back(r.peak);
@@ -365,16 +435,53 @@ void Results<dim>::summarize(const Body<dim>& body) {
 
 template <int dim>
 void Results<dim>::start_file(const Body<dim>& body) {
+  const auto own = own_elements(body);
+  const auto keys = all_keys(*comm_, own);
+  const auto model = is_spread_ ? own_part(body, own, keys) : gathered(body, own, keys);
+  const bool is_first = first_file_is_new_;
+  first_file_is_new_ = false;
+  base::on_all_ranks(*comm_, [&] {
+    if (is_first && comm_->getRank() == 0) series_->remove_the_rest();
+  });
+  base::on_all_ranks(*comm_, [&] {
+    if (series_) series_->start(model);
+  });
+}
+
+/// The whole body, on rank 0. Collective.
+template <int dim>
+io::ExodusModel<dim> Results<dim>::gathered(const Body<dim>& body, const std::vector<ElementRecord>& own,
+                                            const std::set<BlockKey>& keys) {
   io::ExodusModel<dim> model;
   model.coordinates = gather_points<dim>(*comm_, own_coordinates(body));
-  const auto records = base::gather_on_root(*comm_, own_elements(body));
-  element_place_ = sort_into_blocks(records, body.mesh().block_names, model);
+  const auto records = base::gather_on_root(*comm_, own);
+  if (comm_->getRank() == 0) element_place_ = sort_into_blocks(records, keys, body.mesh().block_names, model);
   std::map<GlobalId, int> place_of;
   for (std::size_t i = 0; i < records.size(); ++i) place_of[records[i].id] = element_place_[i];
   gather_groups(*comm_, body, place_of, model);
-  base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() == 0) series_->start(model);
-  });
+  return model;
+}
+
+/// This rank's elements with all their nodes. Local.
+template <int dim>
+io::ExodusModel<dim> Results<dim>::own_part(const Body<dim>& body, std::vector<ElementRecord> own,
+                                            const std::set<BlockKey>& keys) {
+  io::ExodusModel<dim> model;
+  const auto& dofs = body.model().dofs;
+  spread_nodes_ = nodes_of_own_elements(body);
+  for (const int node : spread_nodes_) {
+    model.coordinates.push_back(body.mesh().coordinates[dofs.reference_node(node)]);
+    model.node_ids.push_back(dofs.global_node(node));
+  }
+  for (auto& record : own) {
+    for (int k = 0; k < mesh::n_corners(record.type); ++k) {
+      const auto found = std::lower_bound(model.node_ids.begin(), model.node_ids.end(), record.nodes[k]);
+      record.nodes[k] = found - model.node_ids.begin();
+    }
+  }
+  element_place_ = sort_into_blocks(own, keys, body.mesh().block_names, model);
+  take_own_groups(body, spread_nodes_, element_place_, model);
+  return model;
 }
 
 template <int dim>
@@ -384,11 +491,7 @@ void Results<dim>::write_fields(const Body<dim>& body, const std::vector<double>
 
   const auto model = body.model();
   io::ExodusStep step{body.load_factor(), global_values, {}, {}};
-  for (int c = 0; c < dim; ++c) {
-    std::vector<double> own;
-    for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) own.push_back(body.displacement()[n * dim + c]);
-    step.nodal.push_back(base::gather_on_root(*comm_, own));
-  }
+  for (int c = 0; c < dim; ++c) step.nodal.push_back(nodal_in_file_order(body, c));
   const auto fields = operators::element_fields(model, body.displacement(), body.displacement_at_points());
   std::vector<std::vector<double>> own(4 + stress_names<dim>().size());
   for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
@@ -405,15 +508,28 @@ void Results<dim>::write_fields(const Body<dim>& body, const std::vector<double>
   }
   for (const auto& values : own) step.element.push_back(in_file_order(values));
   base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() == 0) series_->write(step);
+    if (series_) series_->write(step);
   });
+}
+
+/// A component of the displacement: of all nodes on rank 0, or of a spread file's.
+template <int dim>
+std::vector<double> Results<dim>::nodal_in_file_order(const Body<dim>& body, int component) const {
+  const double* u = body.displacement() + component;
+  std::vector<double> own;
+  if (is_spread_) {
+    for (const int n : spread_nodes_) own.push_back(u[n * dim]);
+    return own;
+  }
+  for (int n = 0; n < body.model().dofs.n_owned_nodes(); ++n) own.push_back(u[n * dim]);
+  return base::gather_on_root(*comm_, own);
 }
 
 template <int dim>
 std::vector<double> Results<dim>::in_file_order(const std::vector<double>& own_elements) const {
-  const auto gathered = base::gather_on_root(*comm_, own_elements);
-  std::vector<double> ordered(gathered.size());
-  for (std::size_t i = 0; i < gathered.size(); ++i) ordered[element_place_[i]] = gathered[i];
+  const auto values = is_spread_ ? own_elements : base::gather_on_root(*comm_, own_elements);
+  std::vector<double> ordered(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) ordered[element_place_[i]] = values[i];
   return ordered;
 }
 

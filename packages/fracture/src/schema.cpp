@@ -69,25 +69,37 @@ void declare_material(ParameterList& root) {
       "the same when the horizon or the characteristic length is changed. Data sheets give toughness K_c = sqrt(G_c "
       "E) in plane stress; K_c taken for G_c is wrong by orders of magnitude.",
       optional(above(0.)));
+  material.set(
+      "Calibration", "Mesh-Consistent",
+      "How fracture energy and critical stretch belong together. \"Analytic\": by that integral. \"Mesh-Consistent\": "
+      "the stretch is lowered by what the mesh itself holds a crack up, so that a crack runs at K = sqrt(G_c E) "
+      "also with a characteristic length of a fifth to a half of an element; the factor depends on that length over "
+      "the "
+      "mean edge of the elements in the seeds, and on the two choices in Morphing. A given critical stretch stays as "
+      "it is: then "
+      "the fracture energy that is printed is greater.",
+      one_of(words(calibrations)));
 }
 
 void declare_peridynamics(ParameterList& root) {
   ParameterList& peridynamics = section(root, "Peridynamics", "The nonlocal model inside the peridynamic zone.");
   peridynamics.set(
       "Horizon", 1.5,
-      "delta [length]: the longest bond. Three element sizes are usual. Much less leaves too few bonds, and "
-      "cracks follow the mesh; more costs with its square.",
+      "delta [length]: the longest bond. Four element sizes, and twelve characteristic lengths, are a good choice; "
+      "WHL19 takes "
+      "three and fifteen. Much less leaves too few bonds, and cracks follow the mesh; more costs with its square.",
       required(above(0.)));
   peridynamics.set("Micromodulus", "Exponential",
                    "Stiffness of a bond over its length: c0(xi) = tau0 exp(-|xi|/l) [WHL19, eq. 24]; tau0 follows from "
                    "Young's modulus [WHL19, eq. 17].",
                    one_of({"Exponential"}));
-  peridynamics.set(
-      "Characteristic Length", 0.1,
-      "l [length] in the micromodulus, below the horizon. WHL19 takes a fifth of the element size, a "
-      "fifteenth of the horizon. From a ninth of the horizon on, the horizon cuts the micromodulus off: the "
-      "body is too soft and the fracture energy falls short.",
-      required(above(0.)));
+  peridynamics.set("Characteristic Length", 0.1,
+                   "l [length] in the micromodulus, below the horizon. A third of the element size is a good choice; "
+                   "with a fifth, as "
+                   "in WHL19, cracks are held up between elements, by 30 %. From a ninth of the horizon on, the "
+                   "horizon cuts the micromodulus off: the "
+                   "body is too soft and the fracture energy falls short.",
+                   required(above(0.)));
 }
 
 void declare_seeds(ParameterList& morphing) {
@@ -118,9 +130,9 @@ void declare_seeds(ParameterList& morphing) {
            optional(numbers("a point such as {1.5, 2}")));
   seed.set(
       "Share", 0.8,
-      "Of an automatic seed [-]: each further local maximum of the strain that reaches this share of the largest, "
-      "and is farther than the outer radius from the others, gets a circle, too. 0.8 if not given; less gives more "
-      "zones, which cost bonds.",
+      "Of an automatic seed [-]: each place that reaches this share of the largest strain, and where it is the largest "
+      "up to the inner radius around, gets a circle, too. 0.8 if not given; less gives more zones, which cost "
+      "bonds.",
       optional(between(0., 1.)));
   seed.set("Rim", 2., "Of a box: the width around it over which the morphing function falls from 1 to 0 [length].",
            optional(above(0.)));
@@ -141,7 +153,9 @@ void declare_morphing(ParameterList& root) {
   morphing.set(
       "Stiffness in Peridynamic Zone", "Dropped",
       "What becomes of the classical stiffness E(x) [WHL19, eq. 16] where all bonds are peridynamic: \"Dropped\", "
-      "as WHL19 does, or \"Kept\" where bonds are missing at free surfaces, which are too soft otherwise.",
+      "as WHL19 does, or \"Kept\" where bonds are missing at free surfaces, which are too soft otherwise: several "
+      "times "
+      "more accurate where nothing breaks, but cracks then start late and jump.",
       one_of(words(peridynamic_stiffnesses)));
   morphing.set("Growth Inner Radius", 2.,
                "r_i [horizons]: around the centroid of an element with a broken bond the zone grows to this radius "
@@ -253,6 +267,12 @@ void declare_solver(ParameterList& root) {
              "The preconditioner is renewed when, since its last set-up, solutions have taken so many iterations more "
              "than they would have with a new one [-]: what a set-up costs, in iterations.",
              at_least(0.));
+  solver.set(
+      "Largest Imbalance", 1.25,
+      "Elements are parted among the ranks by their number of bonds, and anew after an increment in which the zone "
+      "has grown and one rank has more than so many times the mean of the work [-]. Near 1 it costs more than it "
+      "saves.",
+      at_least(1.));
   section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
   section(
       solver, "MueLu",
@@ -282,6 +302,12 @@ void declare_output(ParameterList& root) {
       "Fields are written every so many increments; those with a break and the last one are written anyway. 1 shows "
       "everything and may fill the disk in large runs.",
       count());
+  output.set(
+      "Spread Files", false,
+      "Whether each process writes the fields of its own elements, to case.e.N.0 up to case.e.N.<N-1> on N processes, "
+      "instead of one that gathers and writes all. For bodies that do not fit into the memory of one; tools/join makes "
+      "one file of them.",
+      flag());
   output.set(
       "Checkpoint Every", 0,
       "A checkpoint is written every so many increments; 0 is never. The run goes on from each of them as one that "

@@ -29,10 +29,7 @@ class LinearSolver : public testing::Test {
   MultiVector b{matrix->getRowMap(), 1}, x{matrix->getRowMap(), 1};
 
   static solvers::NearNullSpace modes(const CoupledBody& body) {
-    std::vector<Point2> coordinates;
-    for (int n = 0; n < body.dofs->n_owned_nodes(); ++n)
-      coordinates.push_back(body.mesh.coordinates[body.dofs->reference_node(n)]);
-    return solvers::rigid_body_modes<2>(*body.stiffness->matrix(), coordinates);
+    return solvers::rigid_body_modes<2>(*body.stiffness->matrix(), body.node_coordinates());
   }
 
   static void use(solvers::LinearSolver& solver, const CoupledBody& body) {
@@ -191,11 +188,8 @@ TEST_F(LinearSolver, AResidualThatIsNotANumberEndsInAComputationError) {
 TEST(RigidBodyModes, GiveNoForcesOnTheUnconstrainedMatrix) {
   const CoupledBody body(hybrid(false));
   const auto& matrix = *body.stiffness->matrix();
-  std::vector<Point2> coordinates;
-  for (int n = 0; n < body.dofs->n_owned_nodes(); ++n)
-    coordinates.push_back(body.mesh.coordinates[body.dofs->reference_node(n)]);
 
-  const auto space = solvers::rigid_body_modes<2>(matrix, coordinates);
+  const auto space = solvers::rigid_body_modes<2>(matrix, body.node_coordinates());
 
   ASSERT_EQ(space.modes->getNumVectors(), 3u);
   MultiVector forces(space.modes->getMap(), 3);

@@ -17,6 +17,7 @@ using operators::PeridynamicStiffness;
 enum class SeedShape { ball, box, everything, automatic };
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
+enum class Calibration { analytic, mesh_consistent };  ///< of the critical stretch and the fracture energy
 enum class OperatorForm { crs, matrix_free };
 enum class PreconditionerMatrix { coupled, short_range };
 
@@ -71,6 +72,7 @@ struct Case {
   double youngs_modulus, poissons_ratio;
   ElasticModel elastic_model;
   std::optional<double> critical_stretch, fracture_energy;  ///< at most one; none: nothing breaks
+  Calibration calibration;
 
   double horizon, characteristic_length;
 
@@ -97,9 +99,11 @@ struct Case {
   double damage_tolerance;     ///< the same while bonds break
   int max_cg_iterations;
   double renewal_cost;                  ///< of the preconditioner, in iterations
+  double largest_imbalance;             ///< of the ranks' work, before it is parted anew
   Teuchos::ParameterList belos, muelu;  ///< overrides, free-form
 
   int output_every;           ///< fields are written every so many increments, at every break, and at the last one
+  bool spread_files;          ///< fields in a file of each rank
   int checkpoint_every;       ///< increments; 0: not by these
   double checkpoint_minutes;  ///< 0: not by time
   std::vector<std::string> reactions;  ///< groups whose reaction is recorded; default: all with prescribed displacement
@@ -127,5 +131,8 @@ std::string describe_schema();
 
 /// The same as a Markdown page, packages/PARAMETERS.md.
 std::string describe_schema_in_markdown();
+
+/// The schema in RELAX NG (XML syntax), for editors: names, types, and words where only some are allowed.
+std::string describe_schema_in_relax_ng();
 
 }  // namespace perimorph::fracture

@@ -45,7 +45,9 @@ mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const
                                 const std::string& folder);
 
 /// Each rank's part of it, with a halo as the problem needs it. Collective.
+/// @param costs of each element of the whole mesh (on rank 0), or empty for equal ones
 template <int dim>
-mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem);
+mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+                                const std::vector<double>& costs = {});
 
 }  // namespace perimorph::fracture
