@@ -117,7 +117,8 @@ struct WholeRun {
     mesh::Mesh<2> whole = arms();
     mesh::open_along<2>(whole, problem.pre_cracks);
     checkpoints.identify(whole);
-    return fracture::distribute_mesh(*comm, whole, problem);
+    checkpoints.expect_costs(std::vector<double>(whole.n_elements(), 1.));
+    return fracture::distribute_mesh(*comm, whole, problem, checkpoints.costs());
   }
 };
 
