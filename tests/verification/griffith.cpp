@@ -229,7 +229,7 @@ TEST_P(Griffith, TheCrackRunsAtTheHandbooksLoad) {
 
   const Criticals actual = criticals(handbook.make(setting), setting);
 
-  EXPECT_NEAR(actual.peak, 1., 0.055);  // 5 %, and half a load step
+  EXPECT_NEAR(actual.peak, 1., 0.055);  // 0.97 to 1.05: 5 %, and half a load step
 }
 
 INSTANTIATE_TEST_SUITE_P(
