@@ -331,7 +331,6 @@ void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   // All definitions first: a definition after data would move the data.
   const File file{exodus_id_, current_file()};
   define_sizes(file, model, title_, std::accumulate(block_sizes_.begin(), block_sizes_.end(), 0));
-  put_records(file, information_);
   define_blocks_and_sets(file, model);
   const int n_element_variables = static_cast<int>(names_.element.size());
   std::vector<int> everywhere(block_sizes_.size() * n_element_variables, 1);
@@ -341,6 +340,7 @@ void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   define_variables(file, EX_GLOBAL, names_.globals);
   define_variables(file, EX_NODAL, names_.nodal);
   define_variables(file, EX_ELEM_BLOCK, names_.element);
+  put_records(file, information_);  // after these, as what follows a line in it is what the file held there
 
   put_ids(file, EX_ELEM_MAP, element_ids(model));
   put_ids(file, EX_NODE_MAP, model.node_ids);
