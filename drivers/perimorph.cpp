@@ -55,9 +55,10 @@ int main(int argc, char** argv) {
   run->add_flag("--restart", arguments.restart, "Go on after the newest checkpoint in the folder for the results");
   auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what it would cost");
   add_case_options(*check, arguments);
-  bool markdown = false;
-  app.add_subcommand("params", "Print every parameter with default, range, unit and meaning")
-      ->add_flag("--markdown", markdown, "As a Markdown page");
+  bool markdown = false, relax_ng = false;
+  auto* params = app.add_subcommand("params", "Print every parameter with default, range, unit and meaning");
+  auto* as_page = params->add_flag("--markdown", markdown, "As a Markdown page");
+  params->add_flag("--relax-ng", relax_ng, "As a RELAX NG schema, for editors")->excludes(as_page);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -71,8 +72,10 @@ int main(int argc, char** argv) {
     return status;
   };
   try {
-    if (app.got_subcommand("params")) {
-      const auto text = markdown ? fracture::describe_schema_in_markdown() : fracture::describe_schema();
+    if (app.got_subcommand(params)) {
+      const auto text = markdown   ? fracture::describe_schema_in_markdown()
+                        : relax_ng ? fracture::describe_schema_in_relax_ng()
+                                   : fracture::describe_schema();
       if (comm->getRank() == 0) std::fputs(text.c_str(), stdout);
       return 0;
     }

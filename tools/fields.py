@@ -16,7 +16,7 @@ class Displacement:
         blocks = file.connectivity()
         if any(block.shape[1] != 4 for block in blocks):
             fail(f"{directory}: only meshes of quadrilaterals can be compared")
-        self.corners = np.concatenate(blocks)[np.argsort(file.data["elem_num_map"][:])]
+        self.corners = np.concatenate(blocks)[np.argsort(file.element_numbers())]
         self.coordinates = np.column_stack(file.coordinates())
         self.values = np.column_stack(file.displacement(-1))
-        self.node_sets = {name: file.data[f"node_ns{s}"][:] - 1 for s, name in enumerate(file.names("ns_names"), start=1)}
+        self.node_sets = file.node_sets()

@@ -2,6 +2,7 @@
 
 import collections
 import csv
+import functools
 import glob
 import math
 import os
@@ -175,34 +176,59 @@ class Log:
 # --- The Exodus series ---
 
 
-def series_of(path):
-    """The files of the series, in order."""
+def series_of(path, spread_first=False):
+    """The files of the series, in order: each a list, of one file or of the spread ones (case.e.N.r) that stand for it.
+    If there are both, the one file counts, unless the spread ones are to come first."""
     first = path
     if os.path.isdir(path):
-        candidates = sorted(glob.glob(os.path.join(glob.escape(path), "*.e")))
+        candidates = sorted({re.sub(r"(\.e)\.\d+\.\d+$", r"\1", name)
+                             for pattern in ("*.e", "*.e.[0-9]*.[0-9]*") for name in glob.glob(os.path.join(glob.escape(path), pattern))})
         if not candidates:
             fail(f"{path}: no Exodus file (*.e) in it")
         if len(candidates) > 1:
             fail(f"{path}: several series in it, name one of {', '.join(candidates)}")
         first = candidates[0]
-    if not os.path.isfile(first):
+    first = re.sub(r"(\.e)\.\d+\.\d+$", r"\1", first)
+    if not files_of(first, spread_first):
         fail(f"{first}: no such file or directory; expected the directory of a run or its first Exodus file")
-    return [first] + sorted(glob.glob(glob.escape(first) + "-s[0-9]*"))
+    later = {re.sub(r"\.\d+\.\d+$", "", name) for name in glob.glob(glob.escape(first) + "-s[0-9]*")}
+    return [files_of(name, spread_first) for name in [first, *sorted(later)]]
+
+
+def files_of(name, spread_first):
+    """What stands for a file of the series: itself, or its spread files by rank; none if there is neither."""
+    if os.path.isfile(name) and not spread_first:
+        return [name]
+    found = sorted(part for part in glob.glob(glob.escape(name) + ".[0-9]*.[0-9]*") if re.search(r"\.\d+\.\d+$", part))
+    if not found:
+        return [name] if os.path.isfile(name) else []
+    ranks = int(found[0].split(".")[-2])
+    parts = [f"{name}.{ranks}.{rank:0{len(str(ranks))}}" for rank in range(ranks)]
+    if sorted(parts) != found:
+        fail(f"{name}: the spread files {', '.join(map(os.path.basename, found))} are not those of one run; "
+             f"expected {', '.join(map(os.path.basename, parts))}")
+    return parts
 
 
 class ExodusFile:
-    """One file of a series, read by netCDF; needs python3-netcdf4."""
+    """One file of a series, or the spread files that stand for it as if they were joined: nodes by their number, blocks
+    one after the other, elements in each by their number. Read by netCDF; needs python3-netcdf4."""
 
-    def __init__(self, name):
+    def __init__(self, files):
         import netCDF4
 
-        self.name = name
-        try:
-            self.data = netCDF4.Dataset(name)
-            self.data.set_auto_mask(False)
-        except OSError as error:
-            fail(f"{name}: not readable as an Exodus file: {error}")
-        self.times = [float(time) for time in self.data["time_whole"][:]] if "time_whole" in self.data.variables else []
+        self.files = files
+        self.name = re.sub(r"\.\d+\.\d+$", "", files[0])
+        self.parts = []
+        for file in files:
+            try:
+                self.parts.append(netCDF4.Dataset(file))
+            except OSError as error:
+                fail(f"{file}: not readable as an Exodus file: {error}")
+            self.parts[-1].set_auto_mask(False)
+        self.data = self.parts[0]  # for what is the same in all
+        times = [part["time_whole"][:] if "time_whole" in part.variables else [] for part in self.parts]
+        self.times = [float(time) for time in min(times, key=len)]  # one rank may be ahead of another
 
     def records(self, variable):
         """A variable of texts: "qa_records" (program, version, date, time), "info_records" (the resolved case), names."""
@@ -218,18 +244,95 @@ class ExodusFile:
     def block_ids(self):
         return [int(number) for number in self.data["eb_prop1"][:]]
 
+    # Places in the joined file
+
+    @functools.cached_property
+    def nodes(self):
+        """The numbers of all nodes, ascending, and for each where it stands first in the parts one after the other."""
+        import numpy
+
+        count = lambda part: len(part.dimensions["num_nodes"])
+        maps = [part["node_num_map"][:] if "node_num_map" in part.variables else numpy.arange(1, count(part) + 1)
+                for part in self.parts]
+        return numpy.unique(numpy.concatenate(maps), return_index=True)
+
+    def places_of_nodes(self, part):
+        import numpy
+
+        numbers = part["node_num_map"][:] if "node_num_map" in part.variables else self.nodes[0]
+        return numpy.searchsorted(self.nodes[0], numbers)
+
+    def nodal(self, variable, *index):
+        import numpy
+
+        return numpy.concatenate([part[variable][index or slice(None)] for part in self.parts])[self.nodes[1]]
+
+    def block_sizes(self, part):
+        names = [f"num_el_in_blk{block}" for block in range(1, len(self.block_ids()) + 1)]
+        return [len(part.dimensions[name]) if name in part.dimensions else 0 for name in names]
+
+    @functools.cached_property
+    def ids_by_block(self):
+        """For each block the numbers of its elements, part after part, and the order that sorts them."""
+        import numpy
+
+        pieces = [numpy.split(part["elem_num_map"][:], numpy.cumsum(self.block_sizes(part))[:-1]) for part in self.parts]
+        blocks = [numpy.concatenate(block) for block in zip(*pieces)]
+        return [(ids, numpy.argsort(ids, kind="stable") if len(self.parts) > 1 else slice(None)) for ids in blocks]
+
+    def of_blocks(self, variable, *index):
+        """A variable of each block's elements, named with {} in place of the block's place."""
+        import numpy
+
+        for block, (_, order) in enumerate(self.ids_by_block, start=1):
+            parts = [part for part in self.parts if variable.format(block) in part.variables]
+            yield numpy.concatenate([part[variable.format(block)][index or slice(None)] for part in parts])[order]
+
+    # What is in the joined file
+
+    def element_numbers(self):
+        """Of all elements in the order of the blocks: the numbers of the mesh, from 1."""
+        import numpy
+
+        return numpy.concatenate([ids[order] for ids, order in self.ids_by_block])
+
     def coordinates(self):
-        return [self.data[axis][:] for axis in ("coordx", "coordy", "coordz") if axis in self.data.variables]
+        return [self.nodal(axis) for axis in ("coordx", "coordy", "coordz") if axis in self.data.variables]
 
     def connectivity(self):
         """For each block the nodes of its elements, from 0: an array (elements, corners)."""
-        return [self.data[f"connect{block}"][:] - 1 for block in range(1, len(self.data.dimensions["num_el_blk"]) + 1)]
+        import numpy
+
+        blocks = []
+        for block, (_, order) in enumerate(self.ids_by_block, start=1):
+            parts = [part for part in self.parts if f"connect{block}" in part.variables]
+            blocks.append(numpy.concatenate([self.places_of_nodes(part)[part[f"connect{block}"][:] - 1] for part in parts])[order])
+        return blocks
+
+    def node_sets(self):
+        """{name: places of its nodes, ascending}"""
+        import numpy
+
+        return {name: numpy.unique(numpy.concatenate(
+                    [self.places_of_nodes(part)[part[f"node_ns{s}"][:] - 1] for part in self.parts if f"node_ns{s}" in part.variables]
+                    or [numpy.empty(0, int)]))
+                for s, name in enumerate(self.names("ns_names"), start=1)}
+
+    def side_sets(self):
+        """{name: [(place of the element, side from 1)], ascending}"""
+        import numpy
+
+        place = {int(number): at for at, number in enumerate(self.element_numbers())}
+        return {name: sorted((place[int(part["elem_num_map"][element - 1])], int(side)) for part in self.parts
+                             if f"elem_ss{s}" in part.variables
+                             for element, side in zip(part[f"elem_ss{s}"][:], part[f"side_ss{s}"][:]))
+                for s, name in enumerate(self.names("ss_names"), start=1)}
 
     def displacement(self, index):
         """One array per coordinate; zeros where there is none."""
         names = self.names("name_nod_var")
         wanted = [f"displacement_{axis}" for axis, _ in zip("xyz", self.coordinates())]
-        return [self.data[f"vals_nod_var{names.index(name) + 1}"][index] if name in names else 0.0 * x
+        return [self.nodal(f"vals_nod_var{names.index(name) + 1}", index) if name in names else 0.0 * x
                 for name, x in zip(wanted, self.coordinates())]
 
     def values(self, field, index):
@@ -238,12 +341,10 @@ class ExodusFile:
 
         element, nodal = self.names("name_elem_var"), self.names("name_nod_var")
         if field in element:
-            number = element.index(field) + 1
-            blocks = range(1, len(self.data.dimensions["num_el_blk"]) + 1)
-            return numpy.concatenate([self.data[f"vals_elem_var{number}eb{block}"][index] for block in blocks])
+            return numpy.concatenate(list(self.of_blocks(f"vals_elem_var{element.index(field) + 1}eb{{}}", index)))
         if field == "displacement":
             return numpy.sqrt(sum(component**2 for component in self.displacement(index)))
-        return self.data[f"vals_nod_var{nodal.index(field) + 1}"][index]
+        return self.nodal(f"vals_nod_var{nodal.index(field) + 1}", index)
 
     def global_value(self, name, index):
         names = self.names("name_glo_var")

@@ -88,11 +88,7 @@ void solve(benchmark::State& state, const operators::BondSelection& selection) {
   const auto supports = body.supports();
   const auto stiffness = Teuchos::rcp(new operators::MatrixFreeStiffness<2>(body.model(), supports));
   const operators::CoupledStiffness<2> matrix(body.model(), supports, selection);
-  std::vector<Point2> coordinates;
-  for (int n = 0; n < body.dofs->n_nodes(); ++n) {
-    coordinates.push_back(body.mesh.coordinates[body.dofs->reference_node(n)]);
-  }
-  const auto modes = solvers::rigid_body_modes<2>(*matrix.matrix(), coordinates);
+  const auto modes = solvers::rigid_body_modes<2>(*matrix.matrix(), body.node_coordinates());
   const Vector load = wave(body.dofs->owned_dofs());
   Vector x(load.getMap());
   base::Profile profile;
@@ -110,7 +106,7 @@ void solve(benchmark::State& state, const operators::BondSelection& selection) {
 
 void solve_coupled(benchmark::State& state) { solve(state, operators::all_bonds); }
 void solve_short_range(benchmark::State& state) {
-  solve(state, operators::short_range(square().model(), *square().comm, 0.6 * 3.));
+  solve(state, operators::short_range(square().model(), *square().comm, 0.5 * 3.));
 }
 
 BENCHMARK(stream_triad)->Unit(benchmark::kMillisecond);

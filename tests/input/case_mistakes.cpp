@@ -198,6 +198,13 @@ INSTANTIATE_TEST_SUITE_P(
             R"xml(:20: /Morphing/Seeds/tip/Outer Radius: found 4; allowed is a number > "Inner Radius", which is 4)xml"},
         Mistake{"MissingForTheShape", tip, "",
                 R"xml(:17: /Morphing/Seeds/tip/Center: missing; a seed with "Shape" "Circle" needs it)xml"},
+        Mistake{"AutomaticWithAPlace", tip, R"xml(<Parameter name="Shape" type="string" value="Automatic"/>)xml" + tip,
+                R"xml(:18: /Morphing/Seeds/tip/Center: found in a seed with "Shape" "Automatic"; allowed is only)xml"},
+        Mistake{
+            "AutomaticWithAnOuterRadiusAlone",
+            tip + "\n        <Parameter name=\"Inner Radius\" type=\"double\" value=\"4\"/>",
+            R"xml(<Parameter name="Shape" type="string" value="Automatic"/>)xml",
+            R"xml(:17: /Morphing/Seeds/tip/Inner Radius: missing; an automatic seed with "Outer Radius" needs it)xml"},
         Mistake{
             "OfAnotherShape", box, box + R"xml(<Parameter name="Center" type="Array(double)" value="{0, 0}"/>)xml",
             R"xml(:23: /Morphing/Seeds/bar/Center: found in a seed with "Shape" "Box"; allowed is only what describes)xml"},

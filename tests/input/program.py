@@ -214,6 +214,22 @@ class Conditions(Program):
         )
 
 
+class Horizons(Program):
+    def test_one_that_ends_inside_the_elements(self):
+        seed = """<ParameterList name="Morphing"><ParameterList name="Seeds"><ParameterList name="tip">
+          <Parameter name="Shape" type="string" value="Everything"/>
+        </ParameterList></ParameterList></ParameterList>
+        <ParameterList name="Boundary Conditions">"""
+        self.write("plate.xml", case().replace('<ParameterList name="Boundary Conditions">', seed))
+        self.assertEqual(self.perimorph("check", self.case, "--set", "Peridynamics/Horizon=0.71").returncode, 0)
+        self.assert_refused(
+            '/Peridynamics/Horizon: found 0.4, but in the seed "tip" the element at (0.5, 0.5) reaches 0.707107 from its '
+            "centre to its corners; allowed is no less than that",
+            options=["--set", "Peridynamics/Horizon=0.4"],
+            ranks=[1, 4],
+        )
+
+
 class Folders(Program):
     """Where results may not go."""
 

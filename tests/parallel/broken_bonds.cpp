@@ -96,6 +96,13 @@ Specimen plate_with_oblique_crack(DiscontinuousElements policy) {
   return specimen;
 }
 
+/// A third of the bonds past the critical stretch, the worst, breaks at a time.
+Specimen plate_that_breaks_worst_first() {
+  Specimen specimen = plate_with_oblique_crack(DiscontinuousElements::on_damage);
+  specimen.breaking_fraction = 1. / 3.;
+  return specimen;
+}
+
 struct Example {
   const char* name;
   Specimen specimen;
@@ -107,7 +114,8 @@ std::vector<Example> examples() {
   return {{"WholeZoneSlitAlongElements", plate_with_slit(whole_zone), {0.5, 0.65, 0.75}},
           {"OnDamageSlitAlongElements", plate_with_slit(on_damage), {0.75, 0.82, 0.85}},
           {"WholeZoneObliqueCrackThroughElements", plate_with_oblique_crack(whole_zone), {0.3, 0.5, 0.6}},
-          {"OnDamageObliqueCrackThroughElements", plate_with_oblique_crack(on_damage), {0.3, 0.5, 0.6}}};
+          {"OnDamageObliqueCrackThroughElements", plate_with_oblique_crack(on_damage), {0.3, 0.5, 0.6}},
+          {"WorstThirdFirst", plate_that_breaks_worst_first(), {0.3, 0.5, 0.6}}};
 }
 
 /// A block of 8 x 6 x 2 cubes with an edge crack along faces of elements, pulled apart at the cracked side as the

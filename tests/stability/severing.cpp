@@ -58,6 +58,41 @@ TEST_P(Severing, ACrackRunsIntoAHoleAndOutOfIt) {
   run.expect_severed();
 }
 
+TEST_P(Severing, ACrackRunsIntoAnotherAndOnFromItsEnds) {
+  const std::vector<mesh::CrackFacet<2>> slits = {{Point2(6., 0.), Point2(6., 2.)}, {Point2(3., 4.), Point2(9., 4.)}};
+  WatchedRun run(bar(grid({12, 8, 12., 8.}), slits, GetParam()), "right", 0);
+  run.advance_to(0.8, 8);
+  run.expect_severed();
+}
+
+TEST_P(Severing, ACrackRunsAcrossRanks) {
+  // Along the bar, so that it meets every border between parts that lie beside each other.
+  Specimen specimen = bar(grid({12, 6, 12., 6.}), {{Point2(0., 3.), Point2(3., 3.)}}, GetParam());
+  specimen.displacements = {{"hold x", "bottom", 0, {0., 0.}},
+                            {"hold y", "bottom", 1, {0., 0.}},
+                            {"pull x", "top", 0, {0., 0.}},
+                            {"pull y", "top", 1, {1., 0.}}};
+  WatchedRun run(specimen, "top", 1);
+  run.advance(0.01);
+  run.advance_to(2., 4);
+  run.expect_severed();
+  const auto model = run.body().model();
+  base::GlobalId between_ranks = 0;
+  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
+    const auto [first, second] = model.bonds.pair(p);
+    if (model.mesh.element_owners[first] == model.mesh.element_owners[second]) continue;
+    for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
+      between_ranks += model.bonds.broken(b);
+    }
+  }
+  const base::GlobalId all = base::sum(run.comm(), between_ranks);
+  if (run.comm().getSize() > 1) {
+    EXPECT_GT(all, 20);
+  } else {
+    EXPECT_EQ(all, 0);
+  }
+}
+
 TEST_P(Severing, AClusterBetweenTwoBreaksFloats) {
   auto cracks = notches_at(5.);
   for (const auto& facet : notches_at(9.)) cracks.push_back(facet);
@@ -103,6 +138,24 @@ TEST(LastBonds, HoldThePieceUntilTheyBreak) {
   EXPECT_EQ(run.rows.back().broken, 2);
 }
 
+TEST(LastBonds, OneAloneHoldsThePieceAndPullsAlongItself) {
+  // The gap lets one bond through, from (5.2113, 4.2113) to (6.2113, 4.7887): points of 2 x 2 quadrature.
+  Specimen specimen = bar(grid({12, 8, 12., 8.}), {}, DiscontinuousElements::whole_zone);
+  specimen.pre_cracks = {{Point2(5.9, -1.), Point2(5.9, 4.606)}, {Point2(5.9, 4.612), Point2(5.9, 9.)}};
+  specimen.horizon = 1.2;
+  specimen.displacements.push_back({"hold the right end's y", "right", 1, {0., 0.}});
+  WatchedRun run(specimen, "right", 0);
+  const double force = run.advance(0.002).force;
+  EXPECT_GT(force, 0.);
+  EXPECT_NEAR(run.reaction("right", 1), force / std::sqrt(3.), 1e-4 * force);
+  EXPECT_NEAR(run.advance(0.004).force, 2. * force, 1e-4 * force);
+  EXPECT_EQ(run.rows.back().broken, 0);
+  run.advance(0.1);
+  run.expect_severed();
+  EXPECT_EQ(run.rows.back().broken, 1);
+  EXPECT_LE(std::abs(run.reaction("right", 1)), 1e-6 * run.largest_force());
+}
+
 TEST(SingleElement, BetweenTwoOthersFloatsFree) {
   Specimen specimen = bar(grid({3, 1, 3., 1.}), {}, DiscontinuousElements::on_damage);
   WatchedRun run(specimen, "right", 0);
@@ -115,6 +168,23 @@ TEST(SingleElement, BetweenTwoOthersFloatsFree) {
   EXPECT_EQ(run.body().counts().dgfe_elements, 3);
 }
 
+TEST(WorstFirst, SparesBondsThatOthersRelieve) {
+  const auto severed = [](double fraction) {
+    Specimen specimen = bar(grid({12, 6, 12., 6.}), notches_at(6.), DiscontinuousElements::on_damage);
+    specimen.breaking_fraction = fraction;
+    WatchedRun run(specimen, "right", 0);
+    run.advance(0.05);
+    run.advance(0.5);
+    run.expect_severed();
+    return run.rows.back();
+  };
+  const Row all = severed(1.), half = severed(0.5), tenth = severed(0.1);
+  EXPECT_LT(half.broken, all.broken);
+  EXPECT_LE(tenth.broken, half.broken);
+  EXPECT_GT(half.solves, all.solves);
+  EXPECT_GT(tenth.solves, half.solves);
+}
+
 TEST(Reversal, BrokenStaysBrokenAndNothingIsGained) {
   Specimen specimen = bar(grid({12, 6, 12., 6.}), {{Point2(6., 0.), Point2(6., 2.)}}, DiscontinuousElements::on_damage);
   WatchedRun run(specimen, "right", 0);
@@ -122,6 +192,7 @@ TEST(Reversal, BrokenStaysBrokenAndNothingIsGained) {
   while (run.rows.empty() || run.rows.back().broken == 0) run.advance(load += 0.01);
   const Row cracked = run.rows.back();
   ASSERT_GT(cracked.force, 0.1 * run.largest_force());  // it has not parted
+  EXPECT_EQ(run.body().overlap().depth, 0.);
   const Row unloaded = run.advance(0.);
   EXPECT_EQ(unloaded.broken, cracked.broken);
   EXPECT_LE(std::abs(unloaded.force), 1e-6 * run.largest_force());
@@ -131,6 +202,9 @@ TEST(Reversal, BrokenStaysBrokenAndNothingIsGained) {
   const Row compressed = run.advance(-load);
   EXPECT_EQ(compressed.broken, cracked.broken);
   EXPECT_NEAR(compressed.force, -cracked.force, 1e-6 * run.largest_force());  // no contact: the faces overlap
+  const auto overlap = run.body().overlap();
+  EXPECT_GT(overlap.depth, 0.1 * load);
+  EXPECT_NEAR((overlap.place - Point2(6., 0.)).norm(), 0., 1e-12);  // most at the mouth
   EXPECT_NEAR(compressed.energies.elastic, cracked.energies.elastic, 1e-6 * run.rows.front().energies.elastic);
 
   const Row again = run.advance(load);

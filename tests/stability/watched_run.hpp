@@ -58,6 +58,18 @@ class WatchedRun {
     EXPECT_GT(rows.back().broken, 0);
   }
 
+  /// Force that supports exert on a group of nodes.
+  double reaction(const std::string& group, int component) const {
+    const auto model = test_.body.model();
+    const auto& nodes = test_.mesh.node_sets.at(group);
+    double force = 0.;
+    for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) {
+      const int node = model.dofs.reference_node(n);
+      if (std::binary_search(nodes.begin(), nodes.end(), node)) force += test_.body.reaction(n)[component];
+    }
+    return base::sum(*comm_, force);
+  }
+
   double largest_force() const { return largest_force_; }
   const fracture::Body<2>& body() const { return test_.body; }
   const base::Comm& comm() const { return *comm_; }
@@ -70,17 +82,6 @@ class WatchedRun {
   std::string group_;
   int component_;
   double largest_energy_ = 0., largest_force_ = 0.;
-
-  double reaction(const std::string& group, int component) const {
-    const auto model = test_.body.model();
-    const auto& nodes = test_.mesh.node_sets.at(group);
-    double force = 0.;
-    for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) {
-      const int node = model.dofs.reference_node(n);
-      if (std::binary_search(nodes.begin(), nodes.end(), node)) force += test_.body.reaction(n)[component];
-    }
-    return base::sum(*comm_, force);
-  }
 };
 
 }  // namespace perimorph::tests

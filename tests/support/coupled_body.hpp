@@ -81,6 +81,15 @@ struct CoupledBody {
 
   operators::Supports<2> supports() const { return {model(), dirichlet, discontinuous}; }
 
+  /// Of the owned nodes.
+  std::vector<Point2> node_coordinates() const {
+    std::vector<Point2> coordinates;
+    for (int n = 0; n < dofs->n_owned_nodes(); ++n) {
+      coordinates.push_back(mesh.coordinates[dofs->reference_node(n)]);
+    }
+    return coordinates;
+  }
+
   /// The matrix, dense; on one rank.
   Eigen::MatrixXd dense() const {
     const auto local = stiffness->matrix()->getLocalMatrixHost();

@@ -32,6 +32,7 @@ struct SpecimenIn {
   double youngs_modulus = 1000.;
   materials::ElasticModel elastic_model =
       dim == 2 ? materials::ElasticModel::plane_stress : materials::ElasticModel::three_dimensional;
+  double breaking_fraction = 1.;  ///< share of the overstretched bonds that break between two solves
 };
 using Specimen = SpecimenIn<2>;
 
@@ -64,6 +65,7 @@ fracture::BodyOptions make_options(const SpecimenIn<dim>& specimen) {
     options.preconditioner_matrix = fracture::PreconditionerMatrix::short_range;
     options.short_range_cut_off = 0.6 * specimen.horizon;
   }
+  options.breaking_fraction = specimen.breaking_fraction;
   return options;
 }
 

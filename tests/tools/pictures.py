@@ -48,12 +48,15 @@ class Render(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("ffprobe"), "needs ParaView and ffmpeg")
     def test_a_film_has_a_frame_for_each_step(self):
-        film = self.folder / "crack.mp4"
-        drawn = self.render("--warp", "20", "--step", "8", "-o", film)
-        self.assertEqual((drawn.returncode, drawn.stdout), (0, f"{film}\n"), drawn.stderr)
-        told = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", film],
-                              capture_output=True, text=True, timeout=30)
-        self.assertEqual(json.loads(told.stdout)["streams"][0]["nb_read_frames"], "8")
+        for name, codec, steps in [("crack.mp4", "h264", "8"), ("crack.gif", "gif", "2")]:
+            with self.subTest(name):
+                film = self.folder / name
+                drawn = self.render("--warp", "20", "--step", steps, "-o", film)
+                self.assertEqual((drawn.returncode, drawn.stdout), (0, f"{film}\n"), drawn.stderr)
+                told = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", film],
+                                      capture_output=True, text=True, timeout=30)
+                stream = json.loads(told.stdout)["streams"][0]
+                self.assertEqual((stream["codec_name"], stream["nb_read_frames"]), (codec, steps))
 
     def test_mistakes_are_told_before_anything_is_drawn(self):
         for options, piece in [

@@ -3,7 +3,9 @@
     tutorial.py PERIMORPH RUN
 """
 
+import copy
 import csv
+import math
 import pathlib
 import re
 import shlex
@@ -49,6 +51,18 @@ class Tutorial(unittest.TestCase):
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}\n{done.stderr}")
         return done.stdout
 
+    def assert_automatic_seeds_go_beside_the_hole(self, tree):
+        tree = copy.deepcopy(tree)
+        replace_list(tree.getroot(), ElementTree.fromstring(
+            '<ParameterList name="Seeds"><ParameterList name="auto">'
+            '<Parameter name="Shape" type="string" value="Automatic"/></ParameterList></ParameterList>'))
+        tree.write(self.folder / "inputs/bracket/automatic.xml")
+        told = self.run_command("build/drivers/perimorph check inputs/bracket/automatic.xml")
+        places = sorted(tuple(map(float, place)) for place in re.findall(r"^seed .* auto: at \((\S+), (\S+)\)", told, re.MULTILINE))
+        self.assertEqual(len(places), 2, told)
+        for place, wanted in zip(places, [(13, 20), (23, 20)]):  # centroids of elements of size 1
+            self.assertLess(math.dist(place, wanted), 1.5)
+
     def test_runs_as_it_is_written(self):
         text = tutorial()
         commands = re.findall(r"^    (\S.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
@@ -64,6 +78,7 @@ class Tutorial(unittest.TestCase):
         for change in changes:
             replace_list(tree.getroot(), ElementTree.fromstring(change))
         tree.write(case)
+        self.assert_automatic_seeds_go_beside_the_hole(tree)
 
         told = [self.run_command(command) for command in commands[1:]
                 if not command.startswith(("tools/render", "tools/report")) or shutil.which("pvbatch")]

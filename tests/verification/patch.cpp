@@ -75,6 +75,20 @@ TEST(HybridPatch, AWideRimLowersTheDisplacementErrorOfDiscontinuousElements) {
   EXPECT_LT(actual.strain, 0.034);         // 0.031; the prototype had 0.034
 }
 
+/// Largest strain error with alpha falling over so many horizons, in the default policies.
+double strain_error(double rim) {
+  Specimen specimen = patch(grid({40, 40, 40., 40.}), 3., 0.2, uniaxial);
+  specimen.seeds = {Zone<2>::ball({20., 20.}, 8., 8. + 3. * rim)};
+  return solve(specimen, uniaxial).strain;
+}
+
+TEST(HybridPatch, ARimBelowAHorizonGivesSpuriousStrains) {
+  EXPECT_LT(strain_error(2.), 0.027);  // 0.0254, what dropping E(x) leaves
+  EXPECT_LT(strain_error(1.), 0.027);  // 0.0255
+  EXPECT_NEAR(strain_error(0.5), 0.035, 0.003);
+  EXPECT_NEAR(strain_error(0.25), 0.076, 0.005);
+}
+
 TEST(HybridPatch, StiffnessKeptInThePeridynamicZoneCorrectsContinuousElements) {
   for (const Gradient& gradient : {uniaxial, shear}) {
     const Errors actual = solve_wide_rim(DiscontinuousElements::on_damage, PeridynamicStiffness::kept, gradient);

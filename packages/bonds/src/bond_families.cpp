@@ -1,6 +1,7 @@
 #include "perimorph/bonds/bond_families.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace perimorph::bonds {
 
@@ -131,13 +132,13 @@ typename BondFamilies<dim>::Extremes BondFamilies<dim>::neighbourhood_extremes(
   return extremes;
 }
 
+/// visit(first element of the pair, bond, |xi + eta|^2 / |xi|^2)
 template <int dim>
-std::vector<typename BondFamilies<dim>::Bond> BondFamilies<dim>::break_overstretched(
-    const std::vector<Point<dim>>& displacements, double critical_stretch,
-    const std::vector<morphing::ElementClass>& classes) {
+template <class Visit>
+void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& displacements, double critical_stretch,
+                                               const std::vector<morphing::ElementClass>& classes, Visit visit) const {
   // s = |xi + eta| / |xi| - 1 >= s_crit, without the roots   [WHL19, eq. 6, 7]
   const double critical = (1. + critical_stretch) * (1. + critical_stretch);
-  std::vector<Bond> newly_broken;
   for (int p = 0; p < n_pairs(); ++p) {
     const auto [first, second] = pairs_[p];
     if (first == second || classes[first] != morphing::ElementClass::pd ||
@@ -151,9 +152,29 @@ std::vector<typename BondFamilies<dim>::Bond> BondFamilies<dim>::break_overstret
       const Point<dim> xi = points_.position(j) - points_.position(i);
       const Point<dim> eta = displacements[j] - displacements[i];
       if ((xi + eta).squaredNorm() < critical * xi.squaredNorm()) continue;
-      newly_broken.push_back(b);
+      visit(first, b, (xi + eta).squaredNorm() / xi.squaredNorm());
     }
   }
+}
+
+template <int dim>
+std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim>>& displacements,
+                                                     double critical_stretch,
+                                                     const std::vector<morphing::ElementClass>& classes) const {
+  std::vector<double> stretches;
+  for_each_overstretched(displacements, critical_stretch, classes, [&](int first, Bond, double squared_ratio) {
+    if (first < mesh_.n_owned_elements) stretches.push_back(std::sqrt(squared_ratio) - 1.);
+  });
+  return stretches;
+}
+
+template <int dim>
+std::vector<typename BondFamilies<dim>::Bond> BondFamilies<dim>::break_overstretched(
+    const std::vector<Point<dim>>& displacements, double critical_stretch,
+    const std::vector<morphing::ElementClass>& classes) {
+  std::vector<Bond> newly_broken;
+  for_each_overstretched(displacements, critical_stretch, classes,
+                         [&](int, Bond b, double) { newly_broken.push_back(b); });
   for (const Bond b : newly_broken) set_broken(pair_of(b), b);
   return newly_broken;
 }

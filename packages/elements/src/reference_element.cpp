@@ -1,5 +1,6 @@
 #include "perimorph/elements/reference_element.hpp"
 
+#include <Intrepid2_CellTools.hpp>
 #include <Intrepid2_DefaultCubatureFactory.hpp>
 #include <Intrepid2_HGRAD_HEX_C1_FEM.hpp>
 #include <Intrepid2_HGRAD_QUAD_C1_FEM.hpp>
@@ -81,7 +82,33 @@ const ReferenceElement<dim>& reference_element(ElementType type, int points_per_
   return entry->second;
 }
 
+template <int dim>
+std::optional<CornerValues> shape_at(ElementType type, const std::vector<base::Point<dim>>& corners,
+                                     const base::Point<dim>& x) {
+  constexpr double tolerance = 1e-6;
+  using Tools = Intrepid2::CellTools<Device>;
+  const auto basis = linear_basis(type);
+  const auto n_corners = static_cast<int>(corners.size());
+  View cell("cell", 1, n_corners, dim), place("place", 1, 1, dim), reference("reference", 1, 1, dim);
+  for (int d = 0; d < dim; ++d) {
+    place(0, 0, d) = x[d];
+    for (int k = 0; k < n_corners; ++k) cell(0, k, d) = corners[k][d];
+  }
+  Tools::mapToReferenceFrame(reference, place, cell, basis->getBaseCellTopology());
+  View point("point", dim), points("points", 1, dim), values("values", n_corners, 1);
+  for (int d = 0; d < dim; ++d) point(d) = points(0, d) = reference(0, 0, d);
+  if (!Tools::checkPointInclusion(point, basis->getBaseCellTopology(), tolerance)) return std::nullopt;
+  basis->getValues(values, points, Intrepid2::OPERATOR_VALUE);
+  CornerValues shape(n_corners);
+  for (int k = 0; k < n_corners; ++k) shape(k) = values(k, 0);
+  return shape;
+}
+
 template const ReferenceElement<2>& reference_element<2>(ElementType, int);
 template const ReferenceElement<3>& reference_element<3>(ElementType, int);
+template std::optional<CornerValues> shape_at<2>(ElementType, const std::vector<base::Point<2>>&,
+                                                 const base::Point<2>&);
+template std::optional<CornerValues> shape_at<3>(ElementType, const std::vector<base::Point<3>>&,
+                                                 const base::Point<3>&);
 
 }  // namespace perimorph::elements

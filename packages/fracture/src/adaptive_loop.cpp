@@ -15,7 +15,7 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
 }  // namespace
 
 template <int dim>
-void run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints,
+bool run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints,
                        const LoopLimits& limits) {
   for (int increment = checkpoints.increment() + 1; increment <= limits.increments; ++increment) {
     body.apply_load(increment);
@@ -36,10 +36,12 @@ void run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>&
     } while (body.flag_damaged_elements() > 0);
     results.accept(increment, body);
     checkpoints.accept(increment, body, results);
+    if (checkpoints.is_to_be_parted_anew() && increment < limits.increments) return false;
   }
+  return true;
 }
 
-template void run_adaptive_loop<2>(Body<2>&, Results<2>&, Checkpoints<2>&, const LoopLimits&);
-template void run_adaptive_loop<3>(Body<3>&, Results<3>&, Checkpoints<3>&, const LoopLimits&);
+template bool run_adaptive_loop<2>(Body<2>&, Results<2>&, Checkpoints<2>&, const LoopLimits&);
+template bool run_adaptive_loop<3>(Body<3>&, Results<3>&, Checkpoints<3>&, const LoopLimits&);
 
 }  // namespace perimorph::fracture

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 
 #include "perimorph/base/errors.hpp"
@@ -200,6 +202,7 @@ void Body<dim>::renumber() {
   last_u_.assign(displacement(), displacement() + owned_u_->getLocalLength());
   last_force_.assign(last_u_.size(), 0.);
   counts_.unknowns = dofs_->n_global_nodes() * dim;
+  facing_sides_ = operators::facing_sides(mesh_, discontinuous_);
 }
 
 template <int dim>
@@ -208,6 +211,15 @@ void Body<dim>::solve(Accuracy accuracy) {
   // A severed body has no reactions left that its residual could relate to: then these shares of the largest reaction
   // so far count, and of the largest that a first guess took, which moves the supports alone.
   constexpr double of_solution = 0.1, of_first_guess = 1e-4;
+  // A piece that hangs on bonds weaker than its anchors moves by little in each pass: then the anchors give way, by
+  // powers of two, so that they come back to the bit. A body with all its bonds hardly needs them, and a large one
+  // would feel them.
+  constexpr double slow = 0.5, loosening = 0x1p-10, loosest = 0x1p-30;
+  double anchors = 1., last_residual = std::numeric_limits<double>::infinity();
+  const auto loosen_anchors = [&] {
+    stiffness_->scale_anchors(loosening);
+    anchors *= loosening;
+  };
   const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
 
   if (!forces_are_current_) {  // a new load or topology: loads_ too
@@ -223,6 +235,9 @@ void Body<dim>::solve(Accuracy accuracy) {
       force_scale_ = std::max(force_scale_, of_solution * balance.reaction);
       break;
     }
+    if (counts_.broken_bonds == 0 && anchors == 1.) loosen_anchors();
+    if (balance.residual > slow * last_residual && anchors > loosest) loosen_anchors();
+    last_residual = balance.residual;
     if (pass == max_passes) {
       throw base::ComputationError(
           fmt::format("the forces do not balance: residual {:.3e}, reactions {:.3e} after {} solves", balance.residual,
@@ -235,6 +250,7 @@ void Body<dim>::solve(Accuracy accuracy) {
     prescribe_displacements();  // exactly: corrections are zero there only up to rounding
     update_forces();
   }
+  if (anchors != 1.) stiffness_->scale_anchors(1. / anchors);
   record_work();
 }
 
@@ -296,7 +312,7 @@ template <int dim>
 GlobalId Body<dim>::break_bonds() {
   const auto timer = profile_.measure(Phase::bonds);
   if (std::isinf(problem_.critical_stretch)) return 0;
-  const auto broken = bonds_.break_overstretched(at_points_, problem_.critical_stretch, classes_);
+  const auto broken = bonds_.break_overstretched(at_points_, breaking_stretch(), classes_);
   take_out(broken);
   ++break_calls_;
   if (!broken.empty()) broken_by_call_[break_calls_] = broken;
@@ -309,6 +325,19 @@ GlobalId Body<dim>::break_bonds() {
       base::sum(*comm_, static_cast<GlobalId>(std::count_if(broken.begin(), broken.end(), is_counted_here)));
   counts_.broken_bonds += n_broken;
   return n_broken;
+}
+
+/// The stretch from which bonds break now: the critical one, or that of the last bond among the worst. Those that
+/// stretch as far up to rounding, such as mirror images, go together.
+template <int dim>
+double Body<dim>::breaking_stretch() const {
+  constexpr double rounding = 1e-12;
+  if (options_.breaking_fraction >= 1.) return problem_.critical_stretch;
+  auto all = base::gather_on_all(*comm_, bonds_.overstretches(at_points_, problem_.critical_stretch, classes_));
+  if (all.empty()) return problem_.critical_stretch;
+  const auto n_worst = static_cast<long>(std::ceil(options_.breaking_fraction * static_cast<double>(all.size())));
+  std::nth_element(all.begin(), all.begin() + (n_worst - 1), all.end(), std::greater<>());
+  return std::max(problem_.critical_stretch, all[static_cast<std::size_t>(n_worst - 1)] - rounding);
 }
 
 template <int dim>
@@ -458,6 +487,19 @@ Energies Body<dim>::energies() const {
 }
 
 template <int dim>
+operators::Overlap<dim> Body<dim>::overlap() const {
+  const auto own = operators::largest_overlap(model(), facing_sides_, displacement());
+  std::vector<double> numbers = {own.depth};
+  numbers.insert(numbers.end(), own.place.begin(), own.place.end());
+  const auto all = base::gather_on_all(*comm_, numbers);
+  operators::Overlap<dim> largest;
+  for (auto one = all.begin(); one != all.end(); one += dim + 1) {
+    if (*one > largest.depth) largest = {*one, Eigen::Map<const Point<dim>>(&one[1])};
+  }
+  return largest;
+}
+
+template <int dim>
 operators::CoupledModel<dim> Body<dim>::model() const {
   return {mesh_, points_, bonds_, alpha_, elasticity_, *dofs_};
 }
@@ -482,6 +524,7 @@ BodyOptions body_options(const Case& input) {
   options.growth_inner_radius = input.growth_inner_radius;
   options.growth_outer_radius = input.growth_outer_radius;
   options.tolerance = input.tolerance;
+  options.breaking_fraction = input.breaking_fraction;
   options.damage_tolerance = std::max(input.damage_tolerance, input.tolerance);
   options.operator_form = input.operator_form;
   options.preconditioner_matrix = input.preconditioner_matrix;

@@ -73,10 +73,13 @@ void take_material(Case& result, const ParameterList& list) {
   result.elastic_model = value_of(elastic_models, word(material, "Elastic Model"));
   result.critical_stretch = optional_number(material, "Critical Stretch");
   result.fracture_energy = optional_number(material, "Fracture Energy");
+  result.calibration = value_of(calibrations, word(material, "Calibration"));
   const ParameterList& peridynamics = list.sublist("Peridynamics");
   result.horizon = peridynamics.get<double>("Horizon");
   result.characteristic_length = peridynamics.get<double>("Characteristic Length");
 }
+
+constexpr double default_share = 0.8;  // of automatic seeds; the schema names it
 
 Seed seed_from(const std::string& name, const ParameterList& list) {
   Seed seed;
@@ -90,6 +93,7 @@ Seed seed_from(const std::string& name, const ParameterList& list) {
   seed.lower_corner = numbers(list, "Lower Corner");
   seed.upper_corner = numbers(list, "Upper Corner");
   seed.rim = number(list, "Rim");
+  seed.share = list.isParameter("Share") ? list.get<double>("Share") : default_share;
   return seed;
 }
 
@@ -102,6 +106,11 @@ void take_zones(Case& result, const ParameterList& list) {
   result.growth_outer_radius = morphing.get<double>("Growth Outer Radius") * result.horizon;
   const ParameterList& seeds = morphing.sublist("Seeds");
   for (const auto& item : seeds) result.seeds.push_back(seed_from(item.first, seeds.sublist(item.first)));
+  for (Seed& seed : result.seeds) {
+    if (seed.shape != SeedShape::automatic) continue;
+    if (seed.inner_radius == 0.) seed.inner_radius = result.growth_inner_radius;
+    if (seed.outer_radius == 0.) seed.outer_radius = 2. * seed.inner_radius;
+  }
   const ParameterList& cracks = list.sublist("Pre-Cracks");
   for (const auto& item : cracks) {
     const ParameterList& one = cracks.sublist(item.first);
@@ -131,6 +140,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.increments = loading.get<int>("Increments");
   result.max_damage_iterations = loading.get<int>("Maximum Damage Iterations");
   result.max_zone_growths = loading.get<int>("Maximum Zone Growths");
+  result.breaking_fraction = loading.get<double>("Breaking Fraction");
   const ParameterList& solver = list.sublist("Solver");
   result.preconditioner_matrix = value_of(preconditioner_matrices, word(solver, "Preconditioner Matrix"));
   result.short_range_cut_off = solver.get<double>("Short-Range Cut-Off") * result.horizon;
@@ -139,6 +149,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.damage_tolerance = solver.get<double>("Damage Tolerance");
   result.max_cg_iterations = solver.get<int>("Maximum Iterations");
   result.renewal_cost = solver.get<double>("Renewal Cost");
+  result.largest_imbalance = solver.get<double>("Largest Imbalance");
   result.belos = solver.sublist("Belos");
   result.muelu = solver.sublist("MueLu");
 }
@@ -146,8 +157,16 @@ void take_solution(Case& result, const ParameterList& list) {
 /// Requires the displacements to be known.
 void take_output(Case& result, const ParameterList& output) {
   result.output_every = output.get<int>("Every");
+  result.spread_files = output.get<bool>("Spread Files");
   result.checkpoint_every = output.get<int>("Checkpoint Every");
   result.checkpoint_minutes = output.get<double>("Checkpoint Minutes");
+  result.records_crack = output.get<bool>("Crack");
+  result.bond_increments = output.get<Teuchos::Array<int>>("Bonds").toVector();
+  const ParameterList& probes = output.sublist("Probes");
+  for (const auto& item : probes) {
+    const ParameterList& probe = probes.sublist(item.first);
+    result.probes.push_back({item.first, numbers(probe, "Points"), probe.get<int>("Divisions")});
+  }
   result.reactions = output.get<Teuchos::Array<std::string>>("Reactions").toVector();
   if (!result.reactions.empty()) return;
   for (const auto& displacement : result.displacements) {

@@ -120,8 +120,9 @@ template <class E>
 struct ShapeParameter {
   E shape;
   const char* name;
+  bool is_needed = true;
 };
-constexpr std::array<ShapeParameter<SeedShape>, 10> seed_parameters{{{SeedShape::ball, "Center"},
+constexpr std::array<ShapeParameter<SeedShape>, 13> seed_parameters{{{SeedShape::ball, "Center"},
                                                                      {SeedShape::ball, "Inner Radius"},
                                                                      {SeedShape::ball, "Outer Radius"},
                                                                      {SeedShape::cylinder, "Start"},
@@ -130,7 +131,10 @@ constexpr std::array<ShapeParameter<SeedShape>, 10> seed_parameters{{{SeedShape:
                                                                      {SeedShape::cylinder, "Outer Radius"},
                                                                      {SeedShape::box, "Lower Corner"},
                                                                      {SeedShape::box, "Upper Corner"},
-                                                                     {SeedShape::box, "Rim"}}};
+                                                                     {SeedShape::box, "Rim"},
+                                                                     {SeedShape::automatic, "Inner Radius", false},
+                                                                     {SeedShape::automatic, "Outer Radius", false},
+                                                                     {SeedShape::automatic, "Share", false}}};
 constexpr std::array<ShapeParameter<PreCrackShape>, 5> pre_crack_parameters{{{PreCrackShape::polyline, "Points"},
                                                                              {PreCrackShape::polygon, "Points"},
                                                                              {PreCrackShape::disc, "Center"},
@@ -144,12 +148,20 @@ void check_shape(const Section& section, const char* what, const std::array<Choi
   const std::string* word = section.text("Shape");
   if (word == nullptr) return;
   check_choice(section, "Shape", shapes, dimension);
-  std::map<std::string, bool> is_needed;
-  for (const auto& [shape, name] : parameters) is_needed[name] |= shape == value_of(shapes, *word);
-  for (const auto& [name, needed] : is_needed) {
-    if (needed && !section.given(name)) {
+  struct Use {
+    bool is_allowed = false, is_needed = false;
+  };
+  std::map<std::string, Use> uses;
+  for (const auto& [shape, name, is_needed] : parameters) {
+    Use& use = uses[name];
+    const bool is_its_own = shape == value_of(shapes, *word);
+    use.is_allowed |= is_its_own;
+    use.is_needed |= is_its_own && is_needed;
+  }
+  for (const auto& [name, use] : uses) {
+    if (use.is_needed && !section.given(name)) {
       section.mistake(name, fmt::format("missing; {} with \"Shape\" \"{}\" needs it", what, *word));
-    } else if (!needed && section.given(name)) {
+    } else if (!use.is_allowed && section.given(name)) {
       section.mistake(name, fmt::format("found in {} with \"Shape\" \"{}\"; allowed is only what describes that shape",
                                         what, *word));
     }
@@ -163,6 +175,11 @@ void check_that_it_has_length(const Section& section, const std::string& name, c
 
 void check_seed(const Section& seed, int dimension) {
   check_shape(seed, "a seed", seed_shapes, seed_parameters, dimension);
+  const std::string* shape = seed.text("Shape");
+  const bool is_automatic = shape != nullptr && value_of(seed_shapes, *shape) == SeedShape::automatic;
+  if (is_automatic && seed.given("Outer Radius") && !seed.given("Inner Radius")) {
+    seed.mistake("Inner Radius", "missing; an automatic seed with \"Outer Radius\" needs it");
+  }
   check_order(seed, "Inner Radius", "Outer Radius");
   for (const char* name : {"Center", "Start", "End", "Lower Corner", "Upper Corner"}) check_size(seed, name, dimension);
   check_corners(seed, dimension);
@@ -250,6 +267,13 @@ void check_load(const Section& load, int dimension) {
   }
 }
 
+void check_probe(const Section& probe, int dimension) {
+  const Numbers* points = probe.numbers("Points");
+  if (points == nullptr || (!points->empty() && points->size() % dimension == 0)) return;
+  probe.mistake("Points", fmt::format("found {} numbers; allowed are one point or more, {} numbers each",
+                                      points->size(), dimension));
+}
+
 void check_reactions(const Section& output) {
   const auto* groups = output.texts("Reactions");
   if (groups == nullptr) return;
@@ -281,6 +305,7 @@ void check_case(const Resolved& resolved, Mistakes& mistakes) {
   for (const Section& traction : conditions.subs("Tractions")) check_load(traction, dimension);
   check_load(conditions.sub("Body Force"), dimension);
   check_reactions(root.sub("Output"));
+  for (const Section& probe : root.sub("Output").subs("Probes")) check_probe(probe, dimension);
 }
 
 }  // namespace perimorph::fracture

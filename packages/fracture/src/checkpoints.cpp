@@ -1,8 +1,10 @@
 #include "perimorph/fracture/checkpoints.hpp"
 
 #include <chrono>
+#include <numeric>
 #include <sstream>
 
+#include "balance.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/fingerprint.hpp"
 
@@ -12,7 +14,7 @@ using base::GlobalId;
 
 namespace {
 
-constexpr GlobalId format = 1;
+constexpr GlobalId format = 2;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -24,8 +26,9 @@ std::vector<T> from_root(const base::Comm& comm, const std::vector<T>& values) {
 /// The parameters that decide what a run computes, a line each. A run that goes on may go further, solve otherwise or
 /// write more.
 std::string deciding_lines(const Case& input) {
-  constexpr const char* others[] = {"/Title",   "/Mesh/File",    "/Loading/",
-                                    "/Solver/", "/Output/Every", "/Output/Checkpoint"};
+  constexpr const char* others[] = {"/Title",        "/Mesh/File",    "/Loading/Increments", "/Loading/Maximum",
+                                    "/Solver/",      "/Output/Every", "/Output/Checkpoint",  "/Output/Bonds",
+                                    "/Output/Spread"};
   std::istringstream all(listing(input.resolved));
   std::string deciding;
   for (std::string line; std::getline(all, line);) {
@@ -137,6 +140,7 @@ Checkpoints<dim>::Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const 
       every_(input.checkpoint_every),
       last_increment_(input.increments),
       seconds_(60. * input.checkpoint_minutes),
+      largest_imbalance_(input.largest_imbalance),
       last_written_(now()) {}
 
 /// On rank 0.
@@ -169,16 +173,22 @@ void Checkpoints<dim>::load() {
       throw base::UserError("--restart: the checkpoint is of another version of the program");
     }
     const auto [here, there] = first_difference(case_lines_, loaded_.texts["case"]);
-    if (here == there) return;
-    throw base::UserError(
-        fmt::format("--restart: the checkpoint belongs to another case: there \"{}\", here \"{}\"; "
-                    "run without --restart, or name the case's own folder with --output",
-                    there, here));
+    if (here != there) {
+      throw base::UserError(
+          fmt::format("--restart: the checkpoint belongs to another case: there \"{}\", here \"{}\"; "
+                      "run without --restart, or name the case's own folder with --output",
+                      there, here));
+    }
+    costs_ = loaded_.numbers.at("element_costs");
+    log_->info("restart          after increment {}, {} broken bonds", loaded_.integers["increment"].at(0),
+               loaded_.integers["body_counts"].at(0));
   });
   GlobalId loaded = 0;
   if (!loaded_.integers.empty()) loaded = loaded_.integers.at("increment").at(0);
   increment_ = static_cast<int>(base::max(*comm_, loaded));
-  if (increment_ > 0) results_ = results_in(*comm_, loaded_);
+  if (increment_ == 0) return;
+  results_ = results_in(*comm_, loaded_);
+  is_on_disk_ = true;
 }
 
 template <int dim>
@@ -204,11 +214,12 @@ void Checkpoints<dim>::restore(Body<dim>& body) {
     if (comm_->getRank() == 0) folder_.remove_after(increment_);
   });
   if (increment_ == 0) return;
+  if (is_to_be_parted_anew_) {
+    loaded_ = gather();
+    is_to_be_parted_anew_ = false;
+  }
   body.restore(body_state_in(loaded_, body.mesh()));
   loaded_ = {};
-  is_on_disk_ = true;
-  log_->info("restart          after increment {}, load factor {:.6g}, {} broken bonds", increment_, body.load_factor(),
-             body.counts().broken_bonds);
 }
 
 template <int dim>
@@ -242,8 +253,24 @@ void Checkpoints<dim>::accept(int increment, Body<dim>& body, const Results<dim>
   results_ = results.state();
   increment_ = increment;
   is_on_disk_ = false;
+  balance(body);
   if (is_due(increment)) write();
+  if (is_to_be_parted_anew_) results_->seconds = results_->seconds_before;  // the clock goes on
   if (every_ > 0 && increment % every_ == 0) body.forget_solves();
+}
+
+/// A new partition is worth its price only if the zone has grown since the last one: what was uneven then cannot be
+/// mended.
+template <int dim>
+void Checkpoints<dim>::balance(const Body<dim>& body) {
+  constexpr double growth = 1.2;
+  if (comm_->getSize() == 1) return;
+  const auto [total, imbalance] = measure_load(*comm_, body);
+  const double before = base::max(*comm_, std::accumulate(costs_.begin(), costs_.end(), 0.));
+  if (imbalance <= largest_imbalance_ || total <= growth * before) return;
+  costs_ = element_costs(*comm_, body);
+  is_to_be_parted_anew_ = true;
+  log_->info("partition        anew: one rank has {:.2f} times the mean of the work", imbalance);
 }
 
 template <int dim>
@@ -283,6 +310,7 @@ io::Checkpoint Checkpoints<dim>::gather() const {
   checkpoint.texts["case"] = case_lines_;
   put_body(checkpoint, body_);
   put_results(checkpoint, *results_);
+  checkpoint.numbers["element_costs"] = costs_;
   auto& displacement = checkpoint.numbers["displacement"];
   displacement.resize(values.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {

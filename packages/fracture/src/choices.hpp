@@ -22,11 +22,12 @@ inline constexpr std::array<Choice<ElasticModel>, 3> elastic_models{
     {{"Plane Stress", ElasticModel::plane_stress, 2},
      {"Plane Strain", ElasticModel::plane_strain, 2},
      {"Three-Dimensional", ElasticModel::three_dimensional, 3}}};
-inline constexpr std::array<Choice<SeedShape>, 5> seed_shapes{{{"Circle", SeedShape::ball, 2},
+inline constexpr std::array<Choice<SeedShape>, 6> seed_shapes{{{"Circle", SeedShape::ball, 2},
                                                                {"Sphere", SeedShape::ball, 3},
                                                                {"Cylinder", SeedShape::cylinder, 3},
                                                                {"Box", SeedShape::box},
-                                                               {"Everything", SeedShape::everything}}};
+                                                               {"Everything", SeedShape::everything},
+                                                               {"Automatic", SeedShape::automatic}}};
 inline constexpr std::array<Choice<PreCrackShape>, 3> pre_crack_shapes{{{"Polyline", PreCrackShape::polyline, 2},
                                                                         {"Polygon", PreCrackShape::polygon, 3},
                                                                         {"Disc", PreCrackShape::disc, 3}}};
@@ -36,6 +37,8 @@ inline constexpr std::array<Choice<DiscontinuousElements>, 2> discontinuous_elem
     {{"On Damage", DiscontinuousElements::on_damage}, {"Whole Zone", DiscontinuousElements::whole_zone}}};
 inline constexpr std::array<Choice<PeridynamicStiffness>, 2> peridynamic_stiffnesses{
     {{"Dropped", PeridynamicStiffness::dropped}, {"Kept", PeridynamicStiffness::kept}}};
+inline constexpr std::array<Choice<Calibration>, 2> calibrations{
+    {{"Analytic", Calibration::analytic}, {"Mesh-Consistent", Calibration::mesh_consistent}}};
 inline constexpr std::array<Choice<PreconditionerMatrix>, 2> preconditioner_matrices{
     {{"Coupled", PreconditionerMatrix::coupled}, {"Short-Range", PreconditionerMatrix::short_range}}};
 inline constexpr std::array<Choice<OperatorForm>, 2> operator_forms{

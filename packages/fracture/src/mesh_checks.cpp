@@ -9,6 +9,7 @@
 #include "mistakes.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
+#include "perimorph/fracture/probes.hpp"
 
 namespace perimorph::fracture {
 
@@ -105,14 +106,19 @@ struct Part {
 template <int dim>
 class Checks {
  public:
-  Checks(const Case& input, const mesh::Mesh<dim>& whole) : input_(input), mesh_(whole) {}
+  using Zones = std::vector<morphing::Zone<dim>>;
+
+  Checks(const Case& input, const Zones& seeds, const mesh::Mesh<dim>& whole)
+      : input_(input), seeds_(seeds), mesh_(whole) {}
 
   void run() {
     check_groups();
+    check_probes();
     if (mistakes_.empty()) {  // the supports are known only then
       check_contradictions();
       check_free_motions();
     }
+    check_horizon();
     if (!mistakes_.empty()) throw base::UserError(mistakes_.substr(1));
   }
 
@@ -154,6 +160,26 @@ class Checks {
       return fmt::format(" ({} is a group of elements)", in_quotes(group));
     }
     return mesh_.node_sets.count(group) != 0 ? fmt::format(" ({} has nodes only)", in_quotes(group)) : "";
+  }
+
+  // ---- probes ----
+
+  void check_probes() {
+    const elements::Locator<dim> locator(mesh_);
+    for (const auto& probe : input_.probes) {
+      for (const auto& x : places_of<dim>(probe)) {
+        if (locator.find(x)) continue;
+        const auto is_nearer = [&](const Point<dim>& a, const Point<dim>& b) {
+          return (a - x).norm() < (b - x).norm();
+        };
+        const auto& nearest = *std::min_element(mesh_.coordinates.begin(), mesh_.coordinates.end(), is_nearer);
+        add("/Output/Probes/" + probe.name + "/Points",
+            fmt::format(
+                "({:.6g}) is outside the body; allowed are places in it, the nearest node of which is at ({:.6g})",
+                fmt::join(x.begin(), x.end(), ", "), fmt::join(nearest.begin(), nearest.end(), ", ")));
+        break;  // one place of a line says enough
+      }
+    }
   }
 
   // ---- contradictions ----
@@ -217,7 +243,31 @@ class Checks {
                        fmt::join(low.begin(), low.end(), ", "), fmt::join(high.begin(), high.end(), ", "));
   }
 
+  // ---- the horizon ----
+
+  /// With a horizon that ends inside the element hardly any bond leads out of it, and the zone is no solid body.
+  void check_horizon() {
+    for (std::size_t s = 0; s < seeds_.size(); ++s) {
+      double largest = 0.;
+      Point<dim> center = Point<dim>::Zero();
+      for (int e = 0; e < mesh_.n_elements(); ++e) {
+        const Point<dim> x = mesh::centroid(mesh_, e);
+        const double reach = mesh::radius(mesh_, e);
+        if (reach <= largest || seeds_[s].alpha(x, input_.profile) < 1.) continue;
+        largest = reach;
+        center = x;
+      }
+      if (largest <= input_.horizon) continue;
+      add("/Peridynamics/Horizon",
+          fmt::format("found {:.6g}, but in the seed {} the element at ({:.6g}) reaches {:.6g} from its centre to its "
+                      "corners; allowed is no less than that (three element sizes are usual), or a finer mesh there",
+                      input_.horizon, in_quotes(input_.seeds[s].name), fmt::join(center.begin(), center.end(), ", "),
+                      largest));
+    }
+  }
+
   const Case& input_;
+  const Zones& seeds_;
   const mesh::Mesh<dim>& mesh_;
   std::string mistakes_;
 };
@@ -225,11 +275,12 @@ class Checks {
 }  // namespace
 
 template <int dim>
-void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole) {
-  Checks<dim>(input, whole).run();
+void check_against_mesh(const Case& input, const std::vector<morphing::Zone<dim>>& seeds,
+                        const mesh::Mesh<dim>& whole) {
+  Checks<dim>(input, seeds, whole).run();
 }
 
-template void check_against_mesh(const Case&, const mesh::Mesh<2>&);
-template void check_against_mesh(const Case&, const mesh::Mesh<3>&);
+template void check_against_mesh(const Case&, const std::vector<morphing::Zone<2>>&, const mesh::Mesh<2>&);
+template void check_against_mesh(const Case&, const std::vector<morphing::Zone<3>>&, const mesh::Mesh<3>&);
 
 }  // namespace perimorph::fracture

@@ -32,6 +32,8 @@ morphing::Zone<dim> make_zone(const Seed& seed) {
       return Zone::box(point<dim>(seed.lower_corner), point<dim>(seed.upper_corner), seed.rim);
     case SeedShape::everything:
       return Zone::everything();
+    case SeedShape::automatic:  // has no place yet
+      break;
   }
   throw base::Bug("unknown seed shape");
 }
@@ -93,7 +95,13 @@ Problem<dim> make_problem(const Case& input) {
       {},
       make_loads<dim>(input),
       is_proportional(input)};
-  for (const auto& seed : input.seeds) problem.seeds.push_back(make_zone<dim>(seed));
+  for (const auto& seed : input.seeds) {
+    if (seed.shape == SeedShape::automatic) {
+      problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});
+    } else {
+      problem.seeds.push_back(make_zone<dim>(seed));
+    }
+  }
   for (const auto& crack : input.pre_cracks) {
     for (const auto& facet : facets<dim>(crack)) problem.pre_cracks.push_back(facet);
   }
@@ -113,21 +121,24 @@ mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const
     if (file != input.mesh_file) mesh::mesh_geometry(input.mesh_file, file, dim);
     whole = mesh::read_mesh<dim>(file, input.mesh_scale);
     if (!problem.pre_cracks.empty()) mesh::open_along<dim>(whole, problem.pre_cracks);
-    check_against_mesh(input, whole);
+    check_against_mesh(input, problem.seeds, whole);
   });
   return whole;
 }
 
 template <int dim>
-mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem) {
-  return mesh::distribute(comm, whole, problem.seeds.empty() ? 0. : problem.micromodulus.horizon);
+mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+                                const std::vector<double>& costs) {
+  const bool is_uncracked_and_classical = !problem.has_zones() && problem.pre_cracks.empty();
+  return mesh::distribute(comm, whole, is_uncracked_and_classical ? 0. : problem.micromodulus.horizon, costs);
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                   \
-  template Problem<dim> make_problem<dim>(const Case&);                                              \
-  template mesh::Mesh<dim> read_whole_mesh<dim>(const base::Comm&, const Case&, const Problem<dim>&, \
-                                                const std::string&);                                 \
-  template mesh::Mesh<dim> distribute_mesh<dim>(const base::Comm&, const mesh::Mesh<dim>&, const Problem<dim>&);
+#define PERIMORPH_INSTANTIATE(dim)                                                                              \
+  template Problem<dim> make_problem<dim>(const Case&);                                                         \
+  template mesh::Mesh<dim> read_whole_mesh<dim>(const base::Comm&, const Case&, const Problem<dim>&,            \
+                                                const std::string&);                                            \
+  template mesh::Mesh<dim> distribute_mesh<dim>(const base::Comm&, const mesh::Mesh<dim>&, const Problem<dim>&, \
+                                                const std::vector<double>&);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
+#include <tuple>
 
+#include "columns.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/bonds/broken_surface.hpp"
+#include "perimorph/bonds/crack.hpp"
 #include "perimorph/operators/fields.hpp"
 
 namespace perimorph::fracture {
@@ -20,16 +23,6 @@ using base::GlobalId;
 namespace {
 
 constexpr const char* broken_surface_name = "broken_surface";  // a side set
-
-constexpr const char* axis_names[] = {"x", "y", "z"};
-
-template <int dim>
-const std::vector<std::string>& stress_names() {
-  static const std::vector<std::string> names =
-      dim == 2 ? std::vector<std::string>{"stress_xx", "stress_yy", "stress_xy"}
-               : std::vector<std::string>{"stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz", "stress_xy"};
-  return names;
-}
 
 template <int dim>
 typename io::ExodusSeries<dim>::Names variable_names(std::vector<std::string> globals) {
@@ -55,14 +48,6 @@ int kind(const Body<dim>& body, int element) {
   return body.is_discontinuous(element) ? 3 : static_cast<int>(body.classes()[element]);
 }
 
-/// An element as it travels to rank 0.
-struct ElementRecord {
-  GlobalId id;
-  GlobalId nodes[mesh::max_corners];
-  int block, kind;
-  mesh::ElementType type;
-};
-
 template <int dim>
 std::vector<ElementRecord> own_elements(const Body<dim>& body) {
   std::vector<ElementRecord> records;
@@ -76,12 +61,22 @@ std::vector<ElementRecord> own_elements(const Body<dim>& body) {
   return records;
 }
 
+BlockKey key_of(const ElementRecord& record) { return {record.block, record.kind, record.type}; }
+
+/// Of all ranks' elements. Collective.
+std::set<BlockKey> all_keys(const base::Comm& comm, const std::vector<ElementRecord>& own) {
+  std::set<BlockKey> keys;
+  for (const auto& record : own) keys.insert(key_of(record));
+  const auto all = base::gather_on_all(comm, std::vector<BlockKey>(keys.begin(), keys.end()));
+  return {all.begin(), all.end()};
+}
+
 /// The type of each block's elements; of the two, if it has both triangles and quadrilaterals (or the like), the first.
-std::map<int, mesh::ElementType> first_types(const std::vector<ElementRecord>& records) {
+std::map<int, mesh::ElementType> first_types(const std::set<BlockKey>& keys) {
   std::map<int, mesh::ElementType> types;
-  for (const auto& record : records) {
-    auto& type = types.try_emplace(record.block, record.type).first->second;
-    type = std::min(type, record.type);
+  for (const auto& key : keys) {
+    auto& type = types.try_emplace(key.block, key.type).first->second;
+    type = std::min(type, key.type);
   }
   return types;
 }
@@ -89,26 +84,29 @@ std::map<int, mesh::ElementType> first_types(const std::vector<ElementRecord>& r
 /// Blocks by material, class and type, elements in each by id. Returns each record's place in the file. A block's name
 /// and id depend on these three only, not on the topology: 11, 12, 13, 14 are FE to DGFE of the mesh's first block.
 template <int dim>
-std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records,
+std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records, const std::set<BlockKey>& keys,
                                   const std::vector<std::string>& block_names, io::ExodusModel<dim>& model) {
+  const auto types = first_types(keys);
+  std::map<BlockKey, std::size_t> block_of;
+  for (const auto& key : keys) {
+    const bool is_second_type = key.type != types.at(key.block);
+    const int id = 10 * (key.block + 1) + key.kind + (is_second_type ? 5 : 1);
+    std::string name = block_names[key.block] + "_" + kind_names[key.kind];
+    if (is_second_type) name += "_" + mesh::exodus_name(key.type);
+    block_of[key] = model.blocks.size();
+    model.blocks.push_back({name, key.type, {}, {}, id});
+  }
   std::vector<int> order(records.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int i) { return std::make_tuple(records[i].block, records[i].kind, records[i].type); };
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : records[i].id < records[j].id; });
-  const auto types = first_types(records);
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    const auto &a = records[i], &b = records[j];
+    return std::tie(a.block, a.kind, a.type, a.id) < std::tie(b.block, b.kind, b.type, b.id);
+  });
   std::vector<int> place(records.size());
   for (std::size_t position = 0; position < order.size(); ++position) {
     const auto& record = records[order[position]];
     place[order[position]] = static_cast<int>(position);
-    if (position == 0 || key(order[position]) != key(order[position - 1])) {
-      const bool is_second_type = record.type != types.at(record.block);
-      const int id = 10 * (record.block + 1) + record.kind + (is_second_type ? 5 : 1);
-      std::string name = block_names[record.block] + "_" + kind_names[record.kind];
-      if (is_second_type) name += "_" + mesh::exodus_name(record.type);
-      model.blocks.push_back({name, record.type, {}, {}, id});
-    }
-    auto& block = model.blocks.back();
+    auto& block = model.blocks[block_of.at(key_of(record))];
     block.element_ids.push_back(record.id);
     for (int k = 0; k < mesh::n_corners(record.type); ++k)
       block.connectivity.push_back(static_cast<int>(record.nodes[k]));
@@ -127,34 +125,45 @@ std::vector<int> own_nodes_in(const Body<dim>& body, const std::vector<int>& ref
   return found;
 }
 
-/// Sides as rank 0 writes them, from all ranks' own.
-template <int dim>
-std::vector<mesh::Side> gather_sides(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
-                                     const std::vector<mesh::Side>& sides, const std::map<GlobalId, int>& place_of) {
-  struct SideRecord {
-    GlobalId element;
-    int side;
-  };
-  std::vector<SideRecord> own;
-  for (const auto& side : sides) {
-    if (side.element < mesh.n_owned_elements) own.push_back({mesh.element_ids[side.element], side.side});
-  }
-  std::vector<mesh::Side> all;
-  for (const auto& record : base::gather_on_root(comm, own)) all.push_back({place_of.at(record.element), record.side});
-  return all;
+/// By place in the file, whatever the ranks.
+void sort_sides(std::vector<mesh::Side>& sides) {
+  std::sort(sides.begin(), sides.end(), [](const mesh::Side& a, const mesh::Side& b) {
+    return std::tie(a.element, a.side) < std::tie(b.element, b.side);
+  });
 }
 
+/// The mesh's, and the surface of its cracks.
 template <int dim>
-void gather_groups(const base::Comm& comm, const Body<dim>& body, const std::map<GlobalId, int>& place_of,
-                   io::ExodusModel<dim>& model) {
+SideSets side_sets(const mesh::Mesh<dim>& mesh, const std::vector<mesh::Side>& broken_surface) {
+  SideSets sets(mesh.side_sets.begin(), mesh.side_sets.end());
+  sets[broken_surface_name] = broken_surface;
+  return sets;
+}
+
+/// Groups of own nodes and of own elements' sides, gathered on rank 0.
+template <int dim>
+void gather_groups(const base::Comm& comm, const Body<dim>& body, const SideSets& side_sets,
+                   const std::map<GlobalId, int>& place_of, io::ExodusModel<dim>& model) {
   const auto view = body.model();
   for (const auto& [name, reference_nodes] : body.mesh().node_sets) {
     std::vector<int> own;
     for (const int n : own_nodes_in(body, reference_nodes)) own.push_back(static_cast<int>(view.dofs.global_node(n)));
     model.node_sets[name] = base::gather_on_root(comm, own);
   }
-  for (const auto& [name, sides] : body.mesh().side_sets) {
-    model.side_sets[name] = gather_sides(comm, body.mesh(), sides, place_of);
+  struct SideRecord {
+    GlobalId element;
+    int side;
+  };
+  for (const auto& [name, sides] : side_sets) {
+    std::vector<SideRecord> own;
+    for (const auto& side : sides) {
+      if (side.element < body.mesh().n_owned_elements)
+        own.push_back({body.mesh().element_ids[side.element], side.side});
+    }
+    auto& all = model.side_sets[name];
+    for (const auto& record : base::gather_on_root(comm, own))
+      all.push_back({place_of.at(record.element), record.side});
+    sort_sides(all);
   }
 }
 
@@ -179,6 +188,43 @@ std::vector<base::Point<dim>> gather_points(const base::Comm& comm, const std::v
   return points;
 }
 
+/// Local nodes of the elements that this rank owns, by ascending global number.
+template <int dim>
+std::vector<int> nodes_of_own_elements(const Body<dim>& body) {
+  const auto model = body.model();
+  std::map<GlobalId, int> nodes;
+  for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
+    for (int k = 0; k < body.mesh().n_corners(e); ++k) {
+      const int node = model.dofs.nodes_of(e)[k];
+      nodes[model.dofs.global_node(node)] = node;
+    }
+  }
+  std::vector<int> ordered;
+  for (const auto& [id, node] : nodes) ordered.push_back(node);
+  return ordered;
+}
+
+/// The groups within one rank's part. @param nodes its nodes; @param place of own elements
+template <int dim>
+void take_own_groups(const Body<dim>& body, const SideSets& side_sets, const std::vector<int>& nodes,
+                     const std::vector<int>& place, io::ExodusModel<dim>& model) {
+  const auto& dofs = body.model().dofs;
+  for (const auto& [name, reference_nodes] : body.mesh().node_sets) {
+    auto& members = model.node_sets[name];
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (std::binary_search(reference_nodes.begin(), reference_nodes.end(), dofs.reference_node(nodes[n])))
+        members.push_back(static_cast<int>(n));
+    }
+  }
+  for (const auto& [name, sides] : side_sets) {
+    auto& members = model.side_sets[name];
+    for (const auto& side : sides) {
+      if (side.element < body.mesh().n_owned_elements) members.push_back({place[side.element], side.side});
+    }
+    sort_sides(members);
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -187,6 +233,8 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
     : comm_(comm),
       voice_(std::move(voice)),
       profile_(profile),
+      is_spread_(input.spread_files),
+      horizon_(input.horizon),
       output_every_(input.output_every),
       last_increment_(input.increments) {
   for (const auto& group : input.reactions) {
@@ -195,7 +243,8 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
   if (earlier) take_over(*earlier);
   std::vector<std::string> globals = {"load_factor",    "broken_bonds",      "damaged_elements", "dgfe_elements",
                                       "unknowns",       "linear_solves",     "cg_iterations",    "wall_seconds",
-                                      "elastic_energy", "dissipated_energy", "external_work",    "jump_loss"};
+                                      "elastic_energy", "dissipated_energy", "external_work",    "jump_loss",
+                                      "overlap"};
   for (const auto& r : reactions_) globals.push_back("reaction_" + r.column);
   for (const auto& r : reactions_) globals.push_back("displacement_" + r.column);
 
@@ -206,15 +255,30 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
     const std::string history = (std::filesystem::path(folder) / "history.csv").string();
     history_ = std::make_unique<io::History>(earlier ? io::History::resume(history, columns, increment)
                                                      : io::History(history, columns));
-    series_ =
-        std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
-                                                input.title, variable_names<dim>(globals), lines_of(input.resolved));
-    if (earlier) series_->resume(earlier->series);
+  });
+  open_series(input, folder, std::move(globals), earlier);
+}
+
+/// On rank 0, or for spread files on all. Collective.
+template <int dim>
+void Results<dim>::open_series(const Case& input, const std::string& folder, std::vector<std::string> globals,
+                               const std::optional<ResultsState>& earlier) {
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() != 0 && !is_spread_) return;
+    std::optional<io::SpreadPart> part;
+    if (is_spread_) part = io::SpreadPart{comm_->getRank(), comm_->getSize()};
+    series_ = std::make_unique<io::ExodusSeries<dim>>((std::filesystem::path(folder) / (input.name + ".e")).string(),
+                                                      input.title, variable_names<dim>(std::move(globals)),
+                                                      lines_of(input.resolved), part);
+    if (!earlier) return;
+    series_->resume(earlier->series);
+    if (comm_->getRank() == 0) series_->remove_the_rest();
   });
 }
 
 template <int dim>
 void Results<dim>::take_over(const ResultsState& earlier) {
+  first_file_is_new_ = false;
   earlier_seconds_ = earlier.seconds;
   first_break_ = earlier.first_break;
   broken_before_ = earlier.broken;
@@ -228,7 +292,8 @@ void Results<dim>::take_over(const ResultsState& earlier) {
 
 template <int dim>
 ResultsState Results<dim>::state() const {
-  ResultsState state{seconds(), {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
+  ResultsState state{
+      seconds(), earlier_seconds_, {}, first_break_, broken_before_, total_solves_, total_iterations_, {}, {}};
   if (series_) state.series = series_->extent();
   for (const auto& r : reactions_) {
     state.peaks.push_back(r.peak);
@@ -246,14 +311,17 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
   total_solves_ += body.counts().linear_solves;
   total_iterations_ += body.counts().cg_iterations;
   measure_reactions(increment, body);
+  overlap_ = body.overlap();
   const auto values = globals(body);
   if (increment % output_every_ == 0 || new_breaks || increment == last_increment_) write_fields(body, values);
+  if (exports_) exports_->accept(increment, body);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
     std::vector<double> row = {static_cast<double>(increment)};
     row.insert(row.end(), values.begin(), values.end());
     history_->write(row);
     show_line(increment, body);
+    warn_of_overlap();
   });
   broken_before_ = broken;
   if (increment > 1) pace_.add(profile_.elapsed() - seconds_before_);
@@ -276,7 +344,8 @@ std::vector<double> Results<dim>::globals(const Body<dim>& body) const {
                                 energies.elastic,
                                 energies.dissipated,
                                 energies.external_work,
-                                energies.external_work - energies.elastic - energies.dissipated};
+                                energies.external_work - energies.elastic - energies.dissipated,
+                                overlap_.depth};
   for (const auto& r : reactions_) values.push_back(r.force);
   for (const auto& r : reactions_) values.push_back(r.displacement);
   return values;
@@ -327,6 +396,16 @@ void Results<dim>::show_line(int increment, const Body<dim>& body) {
                    counts.linear_solves, counts.cg_iterations, profile_.elapsed() - seconds_before_);
 }
 
+/// Once, as soon as it is more than the solver's tolerance can be.
+template <int dim>
+void Results<dim>::warn_of_overlap() {
+  constexpr double of_horizon = 1e-3;
+  if (has_warned_ || overlap_.depth <= of_horizon * horizon_) return;
+  has_warned_ = true;
+  voice_.log->warn("       crack faces overlap, by {:.3g} at ({:.6g}): there is no contact; see overlap in history.csv",
+                   overlap_.depth, fmt::join(overlap_.place.begin(), overlap_.place.end(), ", "));
+}
+
 template <int dim>
 void Results<dim>::show_progress(int increment, const Body<dim>& body) {
   constexpr double patience = 60.;  // seconds without a word
@@ -367,17 +446,54 @@ void Results<dim>::summarize(const Body<dim>& body) {
 
 template <int dim>
 void Results<dim>::start_file(const Body<dim>& body, const std::vector<mesh::Side>& broken_surface) {
+  const auto own = own_elements(body);
+  const auto keys = all_keys(*comm_, own);
+  const auto sides = side_sets(body.mesh(), broken_surface);
+  const auto model = is_spread_ ? own_part(body, own, keys, sides) : gathered(body, own, keys, sides);
+  const bool is_first = first_file_is_new_;
+  first_file_is_new_ = false;
+  base::on_all_ranks(*comm_, [&] {
+    if (is_first && comm_->getRank() == 0) series_->remove_the_rest();
+  });
+  base::on_all_ranks(*comm_, [&] {
+    if (series_) series_->start(model);
+  });
+}
+
+/// The whole body, on rank 0. Collective.
+template <int dim>
+io::ExodusModel<dim> Results<dim>::gathered(const Body<dim>& body, const std::vector<ElementRecord>& own,
+                                            const std::set<BlockKey>& keys, const SideSets& side_sets) {
   io::ExodusModel<dim> model;
   model.coordinates = gather_points<dim>(*comm_, own_coordinates(body));
-  const auto records = base::gather_on_root(*comm_, own_elements(body));
-  element_place_ = sort_into_blocks(records, body.mesh().block_names, model);
+  const auto records = base::gather_on_root(*comm_, own);
+  if (comm_->getRank() == 0) element_place_ = sort_into_blocks(records, keys, body.mesh().block_names, model);
   std::map<GlobalId, int> place_of;
   for (std::size_t i = 0; i < records.size(); ++i) place_of[records[i].id] = element_place_[i];
-  gather_groups(*comm_, body, place_of, model);
-  model.side_sets[broken_surface_name] = gather_sides(*comm_, body.mesh(), broken_surface, place_of);
-  base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() == 0) series_->start(model);
-  });
+  gather_groups(*comm_, body, side_sets, place_of, model);
+  return model;
+}
+
+/// This rank's elements with all their nodes. Local.
+template <int dim>
+io::ExodusModel<dim> Results<dim>::own_part(const Body<dim>& body, std::vector<ElementRecord> own,
+                                            const std::set<BlockKey>& keys, const SideSets& side_sets) {
+  io::ExodusModel<dim> model;
+  const auto& dofs = body.model().dofs;
+  spread_nodes_ = nodes_of_own_elements(body);
+  for (const int node : spread_nodes_) {
+    model.coordinates.push_back(body.mesh().coordinates[dofs.reference_node(node)]);
+    model.node_ids.push_back(dofs.global_node(node));
+  }
+  for (auto& record : own) {
+    for (int k = 0; k < mesh::n_corners(record.type); ++k) {
+      const auto found = std::lower_bound(model.node_ids.begin(), model.node_ids.end(), record.nodes[k]);
+      record.nodes[k] = found - model.node_ids.begin();
+    }
+  }
+  element_place_ = sort_into_blocks(own, keys, body.mesh().block_names, model);
+  take_own_groups(body, side_sets, spread_nodes_, element_place_, model);
+  return model;
 }
 
 template <int dim>
@@ -392,11 +508,7 @@ void Results<dim>::write_fields(const Body<dim>& body, const std::vector<double>
   broken_sides_written_ = n_broken_sides;
 
   io::ExodusStep step{body.load_factor(), global_values, {}, {}};
-  for (int c = 0; c < dim; ++c) {
-    std::vector<double> own;
-    for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) own.push_back(body.displacement()[n * dim + c]);
-    step.nodal.push_back(base::gather_on_root(*comm_, own));
-  }
+  for (int c = 0; c < dim; ++c) step.nodal.push_back(nodal_in_file_order(body, c));
   const auto fields = operators::element_fields(model, body.displacement(), body.displacement_at_points());
   std::vector<std::vector<double>> own(4 + stress_names<dim>().size());
   for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
@@ -413,15 +525,28 @@ void Results<dim>::write_fields(const Body<dim>& body, const std::vector<double>
   }
   for (const auto& values : own) step.element.push_back(in_file_order(values));
   base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() == 0) series_->write(step);
+    if (series_) series_->write(step);
   });
+}
+
+/// A component of the displacement: of all nodes on rank 0, or of a spread file's.
+template <int dim>
+std::vector<double> Results<dim>::nodal_in_file_order(const Body<dim>& body, int component) const {
+  const double* u = body.displacement() + component;
+  std::vector<double> own;
+  if (is_spread_) {
+    for (const int n : spread_nodes_) own.push_back(u[n * dim]);
+    return own;
+  }
+  for (int n = 0; n < body.model().dofs.n_owned_nodes(); ++n) own.push_back(u[n * dim]);
+  return base::gather_on_root(*comm_, own);
 }
 
 template <int dim>
 std::vector<double> Results<dim>::in_file_order(const std::vector<double>& own_elements) const {
-  const auto gathered = base::gather_on_root(*comm_, own_elements);
-  std::vector<double> ordered(gathered.size());
-  for (std::size_t i = 0; i < gathered.size(); ++i) ordered[element_place_[i]] = gathered[i];
+  const auto values = is_spread_ ? own_elements : base::gather_on_root(*comm_, own_elements);
+  std::vector<double> ordered(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) ordered[element_place_[i]] = values[i];
   return ordered;
 }
 

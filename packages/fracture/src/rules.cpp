@@ -96,12 +96,26 @@ RulePtr between(double low, double high) {
                       [low, high](double value) { return value > low && value < high; });
 }
 
+RulePtr share() {
+  return rule<double>("a number > 0 and <= 1", [](double value) { return value > 0. && value <= 1.; });
+}
+
 RulePtr count() {
   return rule<int>("a whole number >= 1", [](int value) { return value >= 1; });
 }
 
 RulePtr whole_number() {
   return rule<int>("a whole number >= 0", [](int value) { return value >= 0; });
+}
+
+RulePtr flag() {
+  return rule<bool>("true or false", [](bool) { return true; });
+}
+
+RulePtr increments(const std::string& what) {
+  return rule<Teuchos::Array<int>>(what, [](const Teuchos::Array<int>& values) {
+    return std::all_of(values.begin(), values.end(), [](int value) { return value >= 1; });
+  });
 }
 
 RulePtr either(int one, int other) {

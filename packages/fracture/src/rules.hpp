@@ -50,9 +50,12 @@ RulePtr one_of(std::vector<std::string> choices);
 RulePtr any_number();
 RulePtr above(double low);
 RulePtr at_least(double low);
-RulePtr between(double low, double high);  ///< both excluded
-RulePtr count();                           ///< a whole number from 1
-RulePtr whole_number();                    ///< from 0
+RulePtr between(double low, double high);     ///< both excluded
+RulePtr share();                              ///< above 0, up to 1
+RulePtr count();                              ///< a whole number from 1
+RulePtr whole_number();                       ///< from 0
+RulePtr flag();                               ///< true or false
+RulePtr increments(const std::string& what);  ///< array of whole numbers from 1
 RulePtr either(int one, int other);
 RulePtr numbers(const std::string& what);  ///< array; how many is checked with the dimension
 RulePtr names(const std::string& what);    ///< array of texts that are not empty

@@ -9,8 +9,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "balance.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/fracture/advice.hpp"
+#include "perimorph/fracture/automatic_seeds.hpp"
+#include "perimorph/fracture/calibration.hpp"
 #include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
@@ -63,12 +67,24 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
             mesh.n_global_nodes, comm.getSize(), comm.getSize() == 1 ? "" : "s");
   log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
             problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
+}
+
+/// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds,
+/// whose size is returned. Collective.
+template <int dim>
+double place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+                           Problem<dim>& problem, base::Profile& profile, const base::Log& log) {
+  place_automatic_seeds(comm, mesh, input, problem, profile, log);
+  const double size = element_size(*comm, mesh, problem);
+  const bool is_calibrated = calibrate_to_mesh(problem, input, size);
   if (std::isinf(problem.critical_stretch)) {
     log->info("fracture         none: neither critical stretch nor fracture energy is given");
   } else {
-    log->info("fracture         critical stretch s_crit = {:.6g}, fracture energy G_c = {:.6g}",
-              problem.critical_stretch, problem.fracture_energy);
+    log->info("fracture         critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}",
+              problem.critical_stretch, is_calibrated ? "calibrated to the mesh," : "by the integral,",
+              problem.fracture_energy);
   }
+  return size;
 }
 
 /// A computation that cannot go on can be continued by other means.
@@ -79,6 +95,23 @@ void save_what_is_left(Checkpoints<dim>& checkpoints, spdlog::logger& log) {
   } catch (const base::ComputationError& error) {
     log.warn("{}", error.what());
   }
+}
+
+/// Goes on with one partition of the mesh, as far as it serves; returns whether the run is done.
+template <int dim>
+bool run_on(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+            const Problem<dim>& problem, const std::string& folder, const Voice& voice, base::Profile& profile,
+            Checkpoints<dim>& checkpoints) {
+  Body<dim> body(comm, mesh, problem, body_options(input), profile);
+  Results<dim> results(comm, input, folder, voice, profile, checkpoints.increment(), checkpoints.results());
+  auto exports = std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment());
+  checkpoints.restore(body);
+  if (checkpoints.increment() > 0) exports->take_over(body);
+  results.add_exports(std::move(exports));
+  const bool is_done = run_adaptive_loop(body, results, checkpoints,
+                                         {input.increments, input.max_damage_iterations, input.max_zone_growths});
+  if (is_done) results.summarize(body);
+  return is_done;
 }
 
 template <int dim>
@@ -94,26 +127,28 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     Checkpoints<dim> checkpoints(comm, input, folder, log);
     if (start == Start::from_checkpoint) checkpoints.load();
     write_resolved(*comm, input, folder + "/resolved.xml");
-    const auto problem = make_problem<dim>(input);
-    const auto mesh = [&] {
+    auto problem = make_problem<dim>(input);
+    const auto whole = [&] {
       const auto timer = profile.measure(base::Phase::read);
-      const auto whole = read_whole_mesh(*comm, input, problem, folder);
-      checkpoints.identify(whole);
-      return distribute_mesh(*comm, whole, problem);
+      auto mesh = read_whole_mesh(*comm, input, problem, folder);
+      checkpoints.identify(mesh);
+      checkpoints.expect_costs(expected_costs(mesh, problem));
+      return mesh;
     }();
+    const auto distribute = [&] {
+      const auto timer = profile.measure(base::Phase::read);
+      return distribute_mesh(*comm, whole, problem, checkpoints.costs());
+    };
+    auto mesh = distribute();
     describe(*comm, input, problem, mesh, log);
-    Body<dim> body(comm, mesh, problem, body_options(input), profile);
-    Results<dim> results(comm, input, folder, {log, talk == Talk::progress && comm->getRank() == 0}, profile,
-                         checkpoints.increment(), checkpoints.results());
-    checkpoints.restore(body);
+    place_and_calibrate(comm, mesh, input, problem, profile, log);
+    const Voice voice{log, talk == Talk::progress && comm->getRank() == 0};
     try {
-      run_adaptive_loop(body, results, checkpoints,
-                        {input.increments, input.max_damage_iterations, input.max_zone_growths});
+      while (!run_on(comm, mesh, input, problem, folder, voice, profile, checkpoints)) mesh = distribute();
     } catch (const base::ComputationError&) {
       save_what_is_left(checkpoints, *log);
       throw;
     }
-    results.summarize(body);
   } catch (const std::exception& error) {
     log->info("\n{}\n{}", error.what(), profile.table());
     throw;
@@ -144,13 +179,14 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   base::Profile profile;
   const TemporaryFolder folder;
   const auto log = base::make_log(*comm, talk == Talk::quiet);
-  const auto problem = make_problem<dim>(input);
+  auto problem = make_problem<dim>(input);
   const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
-  const auto mesh = distribute_mesh(*comm, whole, problem);
+  const auto mesh = distribute_mesh(*comm, whole, problem, expected_costs(whole, problem));
   log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 
+  const double size = place_and_calibrate(comm, mesh, input, problem, profile, log);
   Body<dim> body(comm, mesh, problem, body_options(input), profile);
   body.update_topology();
   const auto model = body.model();
@@ -177,6 +213,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
               sums[6] / 1e6, sums[6] / sums[4], 2. * sums[4] / sums[5], sums[7] / 1e6);
   }
   log->info("The zone grows with the cracks, and unknowns, bonds and memory with it.");
+  for (const auto& line : advice(input, size)) log->warn("advice: {}: {}", input.file, line);
 }
 
 /// Calls an action with the case's dimension as a constant: the one place where it is chosen.

@@ -74,25 +74,38 @@ void declare_material(ParameterList& root) {
       "changed. Data sheets give toughness K_c = sqrt(G_c "
       "E) in plane stress; K_c taken for G_c is wrong by orders of magnitude.",
       optional(above(0.)));
+  material.set(
+      "Calibration", "Mesh-Consistent",
+      "How fracture energy and critical stretch belong together. \"Analytic\": by that integral. \"Mesh-Consistent\": "
+      "the stretch is lowered by what the mesh itself holds a crack up, so that a crack runs at K = sqrt(G_c E) "
+      "also with a characteristic length of a fifth to a half of an element; the factor depends on that length over "
+      "the "
+      "mean edge of the elements in the seeds, and on the two choices in Morphing. A given critical stretch stays as "
+      "it is: then "
+      "the fracture energy that is printed is greater. In three dimensions the factor has not been measured, and it "
+      "is as \"Analytic\".",
+      one_of(words(calibrations)));
 }
 
 void declare_peridynamics(ParameterList& root) {
   ParameterList& peridynamics = section(root, "Peridynamics", "The nonlocal model inside the peridynamic zone.");
   peridynamics.set(
       "Horizon", 1.5,
-      "delta [length]: the longest bond. Three element sizes are usual. Much less leaves too few bonds, and "
-      "cracks follow the mesh; more costs with its square, in three dimensions with its cube.",
+      "delta [length]: the longest bond. Four element sizes, and twelve characteristic lengths, are a good choice; "
+      "WHL19 takes three and fifteen. Much less leaves too few bonds, and cracks follow the mesh; more costs with its "
+      "square, in three dimensions with its cube.",
       required(above(0.)));
   peridynamics.set("Micromodulus", "Exponential",
                    "Stiffness of a bond over its length: c0(xi) = tau0 exp(-|xi|/l) [WHL19, eq. 24]; tau0 follows from "
                    "Young's modulus [WHL19, eq. 17].",
                    one_of({"Exponential"}));
-  peridynamics.set(
-      "Characteristic Length", 0.1,
-      "l [length] in the micromodulus, below the horizon. WHL19 takes a fifth of the element size, a "
-      "fifteenth of the horizon. From a ninth of the horizon on, the horizon cuts the micromodulus off: the "
-      "body is too soft and the fracture energy falls short.",
-      required(above(0.)));
+  peridynamics.set("Characteristic Length", 0.1,
+                   "l [length] in the micromodulus, below the horizon. A third of the element size is a good choice; "
+                   "with a fifth, as "
+                   "in WHL19, cracks are held up between elements, by 30 %. From a ninth of the horizon on, the "
+                   "horizon cuts the micromodulus off: the "
+                   "body is too soft and the fracture energy falls short.",
+                   required(above(0.)));
 }
 
 void declare_seeds(ParameterList& morphing) {
@@ -101,33 +114,43 @@ void declare_seeds(ParameterList& morphing) {
               "The first peridynamic zones, each a list with a name of your choice. Put one wherever a "
               "crack may start: nothing breaks outside. Without any the body is classical throughout.");
   ParameterList& seed = section(seeds, "*", "One zone. The morphing function is 1 inside and falls to 0 around it.");
-  seed.set("Shape", "Circle",
-           "\"Circle\" (two dimensions) and \"Sphere\" (three) take the center and the two radii, \"Cylinder\" (three) "
-           "the ends "
-           "of its axis and the two radii, \"Box\" the corners and the rim, \"Everything\" nothing.",
-           one_of(words(seed_shapes)));
+  seed.set(
+      "Shape", "Circle",
+      "\"Circle\" (two dimensions) and \"Sphere\" (three) take the center and the two radii, \"Cylinder\" (three) "
+      "the ends of its axis and the two radii, \"Box\" the corners and the rim, \"Everything\" nothing. "
+      "\"Automatic\" needs nothing, and takes the radii and the share: circles or spheres are put where the elastic "
+      "body is stretched most (largest principal strain at the last increment's load) [WHL19, section 3.1]; the log "
+      "tells where.",
+      one_of(words(seed_shapes)));
   seed.set("Center", Numbers{{0., 0.}}, "Of a circle or sphere: x_0 [length].",
            optional(numbers("a point such as {1.5, 2}")));
   seed.set("Start", Numbers{{0., 0., 0.}},
-           "Of a cylinder: one end of its axis [length]. Radii count from the axis, so "
-           "that the ends are round, and reach a radius further.",
+           "Of a cylinder: one end of its axis [length]. Radii count from the axis, so that the ends are round, and "
+           "reach a radius further.",
            optional(numbers("a point such as {1.5, 2, 0}")));
   seed.set("End", Numbers{{0., 0., 10.}}, "Of a cylinder: the other end of its axis [length].",
            optional(numbers("a point such as {1.5, 2, 0}")));
   seed.set(
       "Inner Radius", 4.,
       "Of a circle, sphere or cylinder: r_1 [length], up to which the morphing function is 1. Bonds break only where "
-      "it is 1 all around, up to a horizon away: take at least two horizons, or hardly any bond can break.",
+      "it is 1 all around, up to a horizon away: take at least two horizons, or hardly any bond can break. Of an "
+      "automatic seed the Growth Inner Radius if not given.",
       optional(above(0.)));
-  seed.set("Outer Radius", 6.,
-           "Of a circle, sphere or cylinder: r_2 [length], from which the morphing function is 0. A ring thinner than "
-           "the horizon gives "
-           "spurious forces where the models meet.",
-           optional(above(0.)));
+  seed.set(
+      "Outer Radius", 6.,
+      "Of a circle, sphere or cylinder: r_2 [length], from which the morphing function is 0. A ring thinner than the "
+      "horizon gives spurious forces where the models meet. Of an automatic seed twice the inner radius if not given.",
+      optional(above(0.)));
   seed.set("Lower Corner", Numbers{{-4., -4.}}, "Of a box: its smallest coordinates [length].",
            optional(numbers("a point such as {1.5, 2}")));
   seed.set("Upper Corner", Numbers{{4., 4.}}, "Of a box: its largest coordinates [length].",
            optional(numbers("a point such as {1.5, 2}")));
+  seed.set(
+      "Share", 0.8,
+      "Of an automatic seed [-]: each place that reaches this share of the largest strain, and where it is the largest "
+      "up to the inner radius around, gets a circle, too. 0.8 if not given; less gives more zones, which cost "
+      "bonds.",
+      optional(between(0., 1.)));
   seed.set("Rim", 2., "Of a box: the width around it over which the morphing function falls from 1 to 0 [length].",
            optional(above(0.)));
 }
@@ -147,7 +170,9 @@ void declare_morphing(ParameterList& root) {
   morphing.set(
       "Stiffness in Peridynamic Zone", "Dropped",
       "What becomes of the classical stiffness E(x) [WHL19, eq. 16] where all bonds are peridynamic: \"Dropped\", "
-      "as WHL19 does, or \"Kept\" where bonds are missing at free surfaces, which are too soft otherwise.",
+      "as WHL19 does, or \"Kept\" where bonds are missing at free surfaces, which are too soft otherwise: several "
+      "times "
+      "more accurate where nothing breaks, but cracks then start late and jump.",
       one_of(words(peridynamic_stiffnesses)));
   morphing.set("Growth Inner Radius", 2.,
                "r_i [horizons]: around the centroid of an element with a broken bond the zone grows to this radius "
@@ -228,6 +253,13 @@ void declare_loading(ParameterList& root) {
       "Solutions within one increment, after which the run ends with status 3. An unstable crack takes hundreds to "
       "thousands.",
       count());
+  loading.set(
+      "Breaking Fraction", 1.,
+      "Which share of the bonds past the critical stretch breaks before the body is solved for again, the worst first "
+      "[-]. 1 breaks all of them, as WHL19 does. With less, bonds that the others would relieve are spared; an "
+      "unstable "
+      "crack takes so many more solutions.",
+      share());
   loading.set("Maximum Zone Growths", 5000,
               "Growths of the peridynamic zone within one increment, after which the run ends with status 3.", count());
 }
@@ -244,7 +276,7 @@ void declare_solver(ParameterList& root) {
       "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
       one_of(words(preconditioner_matrices)));
   solver.set(
-      "Short-Range Cut-Off", 0.6,
+      "Short-Range Cut-Off", 0.5,
       "Longest bond in the short-range matrix, in horizons [-]. Below the distance of points in neighbouring elements "
       "the preconditioner is useless.",
       between(0., 1.));
@@ -260,15 +292,39 @@ void declare_solver(ParameterList& root) {
       between(0., 1.));
   solver.set(
       "Maximum Iterations", 500,
-      "Of conjugate gradients in one solution. When they do not suffice, the system is tried once more with another "
-      "preconditioner; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
+      "Of conjugate gradients in one solution. When they do not suffice, the system is tried twice more with other "
+      "preconditioners; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
       count());
   solver.set("Renewal Cost", 50.,
              "The preconditioner is renewed when, since its last set-up, solutions have taken so many iterations more "
              "than they would have with a new one [-]: what a set-up costs, in iterations.",
              at_least(0.));
+  solver.set(
+      "Largest Imbalance", 1.25,
+      "Elements are parted among the ranks by their number of bonds, and anew after an increment in which the zone "
+      "has grown and one rank has more than so many times the mean of the work [-]. Near 1 it costs more than it "
+      "saves.",
+      at_least(1.));
   section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
-  section(solver, "MueLu", "Any parameters of MueLu, handed on as they are, over the program's own.");
+  section(
+      solver, "MueLu",
+      "Any parameters of MueLu, handed on as they are, over the program's own. The V-cycle and its smoother are ours.");
+}
+
+void declare_probes(ParameterList& output) {
+  ParameterList& probes =
+      section(output, "Probes",
+              "Points and lines at which displacement and stress are recorded in probes.csv, each a "
+              "list with a name of your choice: a row for each increment and place.");
+  ParameterList& probe = section(probes, "*", "One probe. All its places must be in the body.");
+  probe.set("Points", Numbers{{0., 0., 10., 0.}},
+            "A point, or the corners of a line {x1, y1, x2, y2, ...} [length]. On a side that elements share, the "
+            "values are those of the element with the lowest number.",
+            required(numbers("{x1, y1, x2, y2, ...}")));
+  probe.set("Divisions", 1,
+            "Into how many equal parts each segment between a point and the next is divided; there is a place at every "
+            "end of a part. 1 is the points themselves.",
+            count());
 }
 
 void declare_output(ParameterList& root) {
@@ -278,6 +334,12 @@ void declare_output(ParameterList& root) {
       "Fields are written every so many increments; those with a break and the last one are written anyway. 1 shows "
       "everything and may fill the disk in large runs.",
       count());
+  output.set(
+      "Spread Files", false,
+      "Whether each process writes the fields of its own elements, to case.e.N.0 up to case.e.N.<N-1> on N processes, "
+      "instead of one that gathers and writes all. For bodies that do not fit into the memory of one; tools/join makes "
+      "one file of them.",
+      flag());
   output.set(
       "Checkpoint Every", 0,
       "A checkpoint is written every so many increments; 0 is never. The run goes on from each of them as one that "
@@ -294,6 +356,18 @@ void declare_output(ParameterList& root) {
       "Reactions", Texts(),
       "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed displacement.",
       names("a list of groups such as {left, right}"));
+  output.set(
+      "Crack", false,
+      "Whether the crack is recorded: in crack.csv its length for each increment, in crack_path.csv the sides of "
+      "elements that open in it. A side is open when more than half of the bonds between its two elements are broken. "
+      "The length is that of the open sides, and also of these projected onto the mean line of all open sides within "
+      "a horizon, which takes out the stairs of a slanting crack. Pre-cracks do not count.",
+      flag());
+  output.set("Bonds", Teuchos::Array<int>(),
+             "Increments after which all bonds are written, to bonds-<increment>.vtp for ParaView: positions, stretch, "
+             "broken or not. 60 bytes for each bond.",
+             increments("a list of increments such as {10, 20}"));
+  declare_probes(output);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
@@ -20,6 +21,11 @@ constexpr int max_name_length = 64;
 
 std::string name_in_series(const std::string& first, int number) {
   return number == 1 ? first : fmt::format("{}-s{:04d}", first, number);
+}
+
+/// As ParaView and the SEACAS tools expect it: the rank with as many digits as the number of ranks.
+std::string ending_of(const SpreadPart& part) {
+  return fmt::format(".{}.{:0{}}", part.n_ranks, part.rank, std::to_string(part.n_ranks).size());
 }
 
 /// What the Exodus library says about its last error: codes above 0 are the system's (28: no space left on device).
@@ -98,11 +104,11 @@ void put_records(const File& file, const std::vector<std::string>& information) 
 }
 
 template <int dim>
-std::vector<int> sizes_of(const std::vector<typename ExodusModel<dim>::Block>& blocks) {
+std::vector<int> sizes_of(const ExodusModel<dim>& model) {
   std::vector<int> sizes;
-  for (const auto& block : blocks) {
+  for (const auto& block : model.blocks) {
     const std::size_t n = block.element_ids.size();
-    PERIMORPH_ASSERT(n > 0, "block {} is empty", block.name);
+    PERIMORPH_ASSERT(n > 0 || !model.node_ids.empty(), "block {} is empty", block.name);
     PERIMORPH_ASSERT(block.connectivity.size() == n * mesh::n_corners(block.type),
                      "block {} has {} elements but {} corners", block.name, n, block.connectivity.size());
     sizes.push_back(static_cast<int>(n));
@@ -170,23 +176,28 @@ void put_coordinates(const File& file, const std::vector<base::Point<dim>>& coor
   file.check(ex_put_coord(file.id, axes[0].data(), axes[1].data(), axes[2].data()), "coordinates");
 }
 
-/// Defines the map and writes it: comes before the large data.
-template <int dim>
-void put_element_ids(const File& file, const std::vector<typename ExodusModel<dim>::Block>& blocks) {
-  std::vector<int> ids;
-  for (const auto& block : blocks) {
-    for (const base::GlobalId element : block.element_ids) {
-      PERIMORPH_ASSERT(element < INT_MAX, "element {} is too large for an Exodus map of ints", element);
-      ids.push_back(static_cast<int>(element) + 1);
-    }
+/// Defines a map and writes it: comes before the large data.
+void put_ids(const File& file, ex_entity_type kind, const std::vector<base::GlobalId>& ids) {
+  std::vector<int> numbers;
+  for (const base::GlobalId id : ids) {
+    PERIMORPH_ASSERT(id < INT_MAX, "id {} is too large for an Exodus map of ints", id);
+    numbers.push_back(static_cast<int>(id) + 1);
   }
-  if (!ids.empty()) file.check(ex_put_id_map(file.id, EX_ELEM_MAP, ids.data()), "element ids");
+  if (!numbers.empty()) file.check(ex_put_id_map(file.id, kind, numbers.data()), "ids");
+}
+
+template <int dim>
+std::vector<base::GlobalId> element_ids(const ExodusModel<dim>& model) {
+  std::vector<base::GlobalId> ids;
+  for (const auto& block : model.blocks) ids.insert(ids.end(), block.element_ids.begin(), block.element_ids.end());
+  return ids;
 }
 
 template <int dim>
 void put_elements(const File& file, const std::vector<typename ExodusModel<dim>::Block>& blocks) {
   const std::vector<int> ids = ids_of<dim>(blocks);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (blocks[b].element_ids.empty()) continue;
     const std::vector<int> corners = one_based(blocks[b].connectivity);
     file.check(ex_put_conn(file.id, EX_ELEM_BLOCK, ids[b], corners.data(), nullptr, nullptr), "elements");
   }
@@ -213,11 +224,22 @@ void put_sets(const File& file, const ExodusModel<dim>& model) {
   }
 }
 
-/// Later files of an earlier run would be opened as part of this series.
-void remove_rest_of_series(const std::string& first, int n_kept) {
+/// What stands for one file of a series: itself, and spread files of any number of ranks.
+std::vector<std::string> files_of(const std::string& name) {
+  const std::filesystem::path path(name);
+  std::vector<std::string> found;
+  if (std::filesystem::exists(path)) found.push_back(name);
   std::error_code ignored;
-  for (int n = n_kept + 1; std::filesystem::remove(name_in_series(first, n), ignored); ++n) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string other = entry.path().filename(), first = path.filename();
+    int n_ranks = 0, rank = 0;
+    const bool is_part = other.rfind(first + '.', 0) == 0 &&
+                         std::sscanf(other.c_str() + first.size(), ".%d.%d", &n_ranks, &rank) == 2 &&
+                         other == first + ending_of({rank, n_ranks});
+    if (is_part) found.push_back((path.parent_path() / other).string());
   }
+  return found;
 }
 
 /// In netCDF's classic formats bytes 4 to 7 are the number of records, which are the steps, high byte first.
@@ -242,9 +264,11 @@ void cut_steps(const std::string& file, int n_steps) {
 }  // namespace
 
 template <int dim>
-ExodusSeries<dim>::ExodusSeries(std::string file, std::string title, Names names, std::vector<std::string> information)
+ExodusSeries<dim>::ExodusSeries(std::string file, std::string title, Names names, std::vector<std::string> information,
+                                std::optional<SpreadPart> part)
     : file_(std::move(file)),
       title_(std::move(title)),
+      part_ending_(part ? ending_of(*part) : ""),
       names_(std::move(names)),
       information_(std::move(information)) {}
 
@@ -256,7 +280,7 @@ ExodusSeries<dim>::~ExodusSeries() {
 
 template <int dim>
 std::string ExodusSeries<dim>::current_file() const {
-  return name_in_series(file_, n_files_);
+  return name_in_series(file_, n_files_) + part_ending_;
 }
 
 template <int dim>
@@ -276,16 +300,25 @@ template <int dim>
 void ExodusSeries<dim>::resume(const SeriesExtent& extent) {
   n_files_ = extent.files;
   n_steps_ = extent.steps;
-  remove_rest_of_series(file_, n_files_);
-  if (n_files_ > 0 && std::filesystem::exists(current_file())) cut_steps(current_file(), n_steps_);
+}
+
+template <int dim>
+void ExodusSeries<dim>::remove_the_rest() const {
+  std::error_code ignored;
+  for (int n = n_files_ + 1;; ++n) {  // later files of an earlier run would be opened as part of this series
+    const auto files = files_of(name_in_series(file_, n));
+    if (files.empty()) break;
+    for (const auto& file : files) std::filesystem::remove(file, ignored);
+  }
+  if (n_files_ == 0) return;
+  for (const auto& file : files_of(name_in_series(file_, n_files_))) cut_steps(file, n_steps_);
 }
 
 template <int dim>
 void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   close();
-  block_sizes_ = sizes_of<dim>(model.blocks);
+  block_sizes_ = sizes_of(model);
   block_ids_ = ids_of<dim>(model.blocks);
-  if (n_files_ == 0) remove_rest_of_series(file_, 1);
   ++n_files_;
   n_steps_ = 0;
 
@@ -298,7 +331,6 @@ void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   // All definitions first: a definition after data would move the data.
   const File file{exodus_id_, current_file()};
   define_sizes(file, model, title_, std::accumulate(block_sizes_.begin(), block_sizes_.end(), 0));
-  put_records(file, information_);
   define_blocks_and_sets(file, model);
   const int n_element_variables = static_cast<int>(names_.element.size());
   std::vector<int> everywhere(block_sizes_.size() * n_element_variables, 1);
@@ -308,8 +340,10 @@ void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   define_variables(file, EX_GLOBAL, names_.globals);
   define_variables(file, EX_NODAL, names_.nodal);
   define_variables(file, EX_ELEM_BLOCK, names_.element);
+  put_records(file, information_);  // after these, as what follows a line in it is what the file held there
 
-  put_element_ids<dim>(file, model.blocks);
+  put_ids(file, EX_ELEM_MAP, element_ids(model));
+  put_ids(file, EX_NODE_MAP, model.node_ids);
   put_elements<dim>(file, model.blocks);
   put_coordinates<dim>(file, model.coordinates);
   put_sets(file, model);
@@ -345,6 +379,7 @@ void ExodusSeries<dim>::write(const ExodusStep& step) {
   for (std::size_t v = 0; v < step.element.size(); ++v) {
     const double* values = step.element[v].data();
     for (std::size_t b = 0; b < block_sizes_.size(); ++b) {
+      if (block_sizes_[b] == 0) continue;
       const int variable = static_cast<int>(v) + 1;
       check(ex_put_var(exodus_id_, n_steps_, EX_ELEM_BLOCK, variable, block_ids_[b], block_sizes_[b], values),
             "element variables");

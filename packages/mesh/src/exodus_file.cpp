@@ -18,6 +18,7 @@
 #include "file_cursor.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/element_type.hpp"
+#include "trial.hpp"
 
 namespace perimorph::mesh {
 
@@ -26,6 +27,10 @@ namespace {
 constexpr int longest_name = 256;
 constexpr int first_side_of_shell = 2;       // its sides 1 and 2 are its faces
 constexpr std::int64_t best_packing = 1032;  // of HDF5's compression (deflate)
+
+// What reading an HDF5 file may take: more than any sound one does.
+constexpr std::size_t trial_memory = std::size_t{1} << 30U, trial_memory_per_byte = 100;
+constexpr std::size_t trial_seconds = 60, trial_bytes_per_second = 1000000;
 
 const Advice advice = {"export the elements of what is to be computed, plane ones for a 2D case",
                        "Export only nodes that elements use",
@@ -123,7 +128,7 @@ class Handle {
 
 class Reader {
  public:
-  explicit Reader(const std::string& file) : file_(checked(file)), container_(container_of(file)), handle_(file) {
+  explicit Reader(const std::string& file) : file_(file), container_(container_of(file)), handle_(file) {
     result_.name = file;
     result_.advice = advice;
   }
@@ -144,11 +149,6 @@ class Reader {
     std::string name;
     std::vector<std::int64_t> entries, extra;  ///< nodes; or elements and their sides; from 1
   };
-
-  static const std::string& checked(const std::string& file) {
-    require_regular_file(file, "an Exodus file");
-    return file;
-  }
 
   template <class... Arguments>
   [[noreturn]] void fail(fmt::format_string<Arguments...> what, Arguments&&... arguments) const {
@@ -376,6 +376,19 @@ class Reader {
 
 }  // namespace
 
-MeshFile read_exodus_file(const std::string& file) { return Reader(file).read(); }
+/// HDF5's library trusts what a file says of itself: damaged ones make it crash or take all memory. So another process
+/// reads it first. (Classic headers are checked by ourselves.)
+MeshFile read_exodus_file(const std::string& file) {
+  require_regular_file(file, "an Exodus file");
+  if (container_of(file) == Container::hdf5) {
+    const std::size_t size = std::filesystem::file_size(file);
+    const std::string trouble = on_trial([&] { Reader(file).read(); }, trial_memory + trial_memory_per_byte * size,
+                                         static_cast<unsigned>(trial_seconds + size / trial_bytes_per_second));
+    if (!trouble.empty()) {
+      throw base::UserError(fmt::format("{}: the HDF5 library cannot read it ({}): it is damaged", file, trouble));
+    }
+  }
+  return Reader(file).read();
+}
 
 }  // namespace perimorph::mesh

@@ -1,5 +1,8 @@
 #include "perimorph/operators/fields.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <limits>
+
 #include "perimorph/elements/strain.hpp"
 
 namespace perimorph::operators {
@@ -8,22 +11,45 @@ using base::Point;
 
 namespace {
 
+/// Calls visit(q, strain, stress, w) for each point of an element: those of its continuous part, E(x) eps.
+template <int dim, class Visit>
+void visit_local_part(const CoupledModel<dim>& model, int e, const double* u, Visit visit) {
+  elements::with_corners<dim>(model.mesh.n_corners(e), [&](auto corners) {
+    constexpr int n = decltype(corners)::value;
+    Eigen::Matrix<double, dim * n, 1> d;
+    for (int k = 0; k < n; ++k) {
+      d.template segment<dim>(k * dim) = Eigen::Map<const Point<dim>>(u + model.dofs.nodes_of(e)[k] * dim);
+    }
+    for (int q = 0; q < model.points.count(e); ++q) {
+      const base::Voigt<dim> strain = elements::strain_matrix<dim, n>(model.points.gradients(e, q)) * d;
+      const base::Voigt<dim> stress = model.elasticity.at(e, q) * strain;
+      visit(q, strain, stress, model.points.weight(model.points.first(e) + q));
+    }
+  });
+}
+
+/// Calls visit(first end, second end, energy, stress) for each intact bond of a pair of elements, with the ends as
+/// numbers of points and the bond's share in each end's energy and stress times volume.
+template <int dim, class Visit>
+void visit_bonds(const CoupledModel<dim>& model, int p, const std::vector<Point<dim>>& u, Visit visit) {
+  const auto [first, second] = model.bonds.pair(p);
+  for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
+    if (model.bonds.broken(b)) continue;
+    const int i = model.points.first(first) + model.bonds.first_end(b);
+    const int j = model.points.first(second) + model.bonds.second_end(b);
+    const Point<dim> xi = model.points.position(j) - model.points.position(i);
+    const double stretch = xi.dot(u[j] - u[i]), k = model.spring(b, i, j);
+    const base::Voigt<dim> stress = 0.5 * k * stretch * elements::squared<dim>(xi);
+    visit(i, j, 0.25 * k * stretch * stretch, stress);
+  }
+}
+
 template <int dim>
 void add_local_part(const CoupledModel<dim>& model, const double* u, ElementFields<dim>& fields) {
   for (int e = 0; e < model.mesh.n_owned_elements; ++e) {
-    elements::with_corners<dim>(model.mesh.n_corners(e), [&](auto corners) {
-      constexpr int n = decltype(corners)::value;
-      Eigen::Matrix<double, dim * n, 1> d;
-      for (int k = 0; k < n; ++k) {
-        d.template segment<dim>(k * dim) = Eigen::Map<const Point<dim>>(u + model.dofs.nodes_of(e)[k] * dim);
-      }
-      for (int q = 0; q < model.points.count(e); ++q) {
-        const double w = model.points.weight(model.points.first(e) + q);
-        const base::Voigt<dim> strain = elements::strain_matrix<dim, n>(model.points.gradients(e, q)) * d;
-        const base::Voigt<dim> stress = model.elasticity.at(e, q) * strain;
-        fields.energy[e] += 0.5 * w * strain.dot(stress);
-        fields.stress[e] += w * stress;
-      }
+    visit_local_part(model, e, u, [&](int, const base::Voigt<dim>& strain, const base::Voigt<dim>& stress, double w) {
+      fields.energy[e] += 0.5 * w * strain.dot(stress);
+      fields.stress[e] += w * stress;
     });
   }
 }
@@ -32,18 +58,14 @@ template <int dim>
 void add_bonds_part(const CoupledModel<dim>& model, const std::vector<Point<dim>>& u, ElementFields<dim>& fields) {
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     const auto [first, second] = model.bonds.pair(p);
-    for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
-      if (model.bonds.broken(b)) continue;
-      const int i = model.points.first(first) + model.bonds.first_end(b);
-      const int j = model.points.first(second) + model.bonds.second_end(b);
-      const Point<dim> xi = model.points.position(j) - model.points.position(i);
-      const double stretch = xi.dot(u[j] - u[i]), k = model.spring(b, i, j);
-      for (const int e : {first, second}) {
+    const int ends[] = {first, second};
+    visit_bonds(model, p, u, [&](int, int, double energy, const base::Voigt<dim>& stress) {
+      for (const int e : ends) {
         if (e >= model.mesh.n_owned_elements) continue;
-        fields.energy[e] += 0.25 * k * stretch * stretch;
-        fields.stress[e] += 0.5 * k * stretch * elements::squared<dim>(xi);
+        fields.energy[e] += energy;
+        fields.stress[e] += stress;
       }
-    }
+    });
   }
 }
 
@@ -83,8 +105,48 @@ ElementFields<dim> element_fields(const CoupledModel<dim>& model, const double* 
   return fields;
 }
 
+template <int dim>
+std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, int element, const double* u,
+                                               const std::vector<Point<dim>>& at_points) {
+  const int first = model.points.first(element), end = model.points.first(element + 1);
+  std::vector<base::Voigt<dim>> stress(end - first, base::Voigt<dim>::Zero());
+  for (const int p : model.bonds.pairs_of(element)) {
+    visit_bonds(model, p, at_points, [&](int i, int j, double, const base::Voigt<dim>& bonds) {
+      for (const int point : {i, j}) {
+        if (point >= first && point < end) stress[point - first] += bonds / model.points.weight(point);
+      }
+    });
+  }
+  visit_local_part(model, element, u,
+                   [&](int q, const base::Voigt<dim>&, const base::Voigt<dim>& local, double) { stress[q] += local; });
+  return stress;
+}
+
+template <int dim>
+double largest_principal_strain(const CoupledModel<dim>& model, int element, const double* u) {
+  double largest = -std::numeric_limits<double>::infinity();
+  visit_local_part(model, element, u, [&](int, const base::Voigt<dim>& strain, const base::Voigt<dim>&, double) {
+    Eigen::Matrix<double, dim, dim> tensor = strain.template head<dim>().asDiagonal();
+    for (int v = dim; v < base::n_voigt<dim>; ++v) {
+      const auto [i, j] = elements::shear_axes<dim>(v);
+      tensor(i, j) = tensor(j, i) = 0.5 * strain[v];
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>> solver(tensor, Eigen::EigenvaluesOnly);
+    largest = std::max(largest, solver.eigenvalues()[dim - 1]);
+  });
+  return largest;
+}
+
+template double largest_principal_strain<2>(const CoupledModel<2>&, int, const double*);
+template double largest_principal_strain<3>(const CoupledModel<3>&, int, const double*);
+
 template ElementFields<2> element_fields<2>(const CoupledModel<2>&, const double*, const std::vector<Point<2>>&);
 template ElementFields<3> element_fields<3>(const CoupledModel<3>&, const double*, const std::vector<Point<3>>&);
+
+template std::vector<base::Voigt<2>> stress_at_points<2>(const CoupledModel<2>&, int, const double*,
+                                                         const std::vector<Point<2>>&);
+template std::vector<base::Voigt<3>> stress_at_points<3>(const CoupledModel<3>&, int, const double*,
+                                                         const std::vector<Point<3>>&);
 
 template std::vector<Point<2>> displacements_at_points<2>(const CoupledModel<2>&, const double*);
 template std::vector<Point<3>> displacements_at_points<3>(const CoupledModel<3>&, const double*);

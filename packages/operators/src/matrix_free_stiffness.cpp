@@ -2,6 +2,7 @@
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 
 namespace perimorph::operators {
 
@@ -34,6 +35,13 @@ void MatrixFreeStiffness<dim>::apply(const MultiVector& x, MultiVector& y, Teuch
       const double result = alpha * (forces_[dof] + diagonal_[dof] * own_x(dof, 0));
       own_y(dof, 0) = beta == 0. ? result : beta * own_y(dof, 0) + result;
     }
+  }
+}
+
+template <int dim>
+void MatrixFreeStiffness<dim>::scale_anchors(double factor) {
+  for (std::size_t dof = 0; dof < diagonal_.size(); ++dof) {
+    if (!std::binary_search(fixed_.begin(), fixed_.end(), static_cast<int>(dof))) diagonal_[dof] *= factor;
   }
 }
 

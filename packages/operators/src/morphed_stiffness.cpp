@@ -1,6 +1,7 @@
 #include "perimorph/operators/morphed_stiffness.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "perimorph/elements/strain.hpp"
 
@@ -21,32 +22,61 @@ void MorphedStiffness<dim>::update(const mesh::Mesh<dim>& mesh, const elements::
                                    const bonds::BondFamilies<dim>& bonds, const morphing::MorphingField<dim>& alpha,
                                    const std::vector<morphing::ElementClass>& classes,
                                    const std::vector<char>& discontinuous) {
-  using morphing::ElementClass;
-  first_.assign(mesh.n_elements(), -1);
-  is_zero_.assign(mesh.n_elements(), 0);
-  reduced_.clear();
+  first_.resize(mesh.n_elements(), -1);
+  is_zero_.resize(mesh.n_elements(), 0);
+  alpha_.resize(points.size(), 0.);
+  const auto is_alpha_new = take_over(points, alpha);
+  seen_.resize(mesh.n_elements());
   for (int e = 0; e < mesh.n_elements(); ++e) {
-    is_zero_[e] = classes[e] == ElementClass::pd && policy_ == PeridynamicStiffness::dropped;
-    if (bonds.pairs_of(e).empty()) continue;
-    first_[e] = static_cast<int>(reduced_.size());
-    reduced_.resize(reduced_.size() + points.count(e), is_zero_[e] ? base::Stiffness<dim>::Zero().eval() : e0_);
+    is_zero_[e] = classes[e] == morphing::ElementClass::pd && policy_ == PeridynamicStiffness::dropped;
+    const Seen now{bonds.pairs_of(e).size(), is_zero_[e], discontinuous[e]};
+    const bool is_touched = std::any_of(bonds.pairs_of(e).begin(), bonds.pairs_of(e).end(), [&](int p) {
+      return is_alpha_new[bonds.pair(p).first] || is_alpha_new[bonds.pair(p).second];
+    });
+    if (now == seen_[e] && !is_touched) continue;
+    seen_[e] = now;
+    if (now.n_pairs > 0) compute(e, points, bonds, discontinuous[e]);
   }
-  for (int p = 0; p < bonds.n_pairs(); ++p) {
+}
+
+/// Keeps alpha; returns per element whether it has changed at one of its points.
+template <int dim>
+std::vector<char> MorphedStiffness<dim>::take_over(const elements::MaterialPoints<dim>& points,
+                                                   const morphing::MorphingField<dim>& alpha) {
+  std::vector<char> changed(first_.size(), 0);
+  for (std::size_t e = 0; e < changed.size(); ++e) {
+    for (int p = points.first(static_cast<int>(e)); p < points.first(static_cast<int>(e) + 1); ++p) {
+      changed[e] |= static_cast<char>(alpha_[p] != alpha(p));
+      alpha_[p] = alpha(p);
+    }
+  }
+  return changed;
+}
+
+template <int dim>
+void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<dim>& points,
+                                    const bonds::BondFamilies<dim>& bonds, bool is_discontinuous) {
+  const int n_points = points.count(element);
+  if (first_[element] < 0) {
+    first_[element] = static_cast<int>(reduced_.size());
+    reduced_.resize(reduced_.size() + n_points);
+  }
+  base::Stiffness<dim>* reduced = reduced_.data() + first_[element];
+  std::fill_n(reduced, n_points, is_zero_[element] ? base::Stiffness<dim>::Zero().eval() : e0_);
+  if (is_zero_[element]) return;
+  for (const int p : bonds.pairs_of(element)) {
     const auto [first, second] = bonds.pair(p);
-    if (is_zero_[first] && is_zero_[second]) continue;
     for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
       const int qi = bonds.first_end(b), qj = bonds.second_end(b);
       const int i = points.first(first) + qi, j = points.first(second) + qj;
       const auto v = elements::squared<dim>(points.position(j) - points.position(i));
-      const base::Stiffness<dim> term = 0.25 * (alpha(i) + alpha(j)) * bonds.stiffness(b) * v * v.transpose();
-      if (!is_zero_[first]) reduced_[first_[first] + qi] -= term / points.weight(i);
-      if (!is_zero_[second]) reduced_[first_[second] + qj] -= term / points.weight(j);
+      const base::Stiffness<dim> term = 0.25 * (alpha_[i] + alpha_[j]) * bonds.stiffness(b) * v * v.transpose();
+      if (first == element) reduced[qi] -= term / points.weight(i);
+      if (second == element) reduced[qj] -= term / points.weight(j);
     }
   }
-  for (int e = 0; e < mesh.n_elements(); ++e) {
-    if (first_[e] < 0 || !discontinuous[e] || is_zero_[e]) continue;
-    for (int q = 0; q < points.count(e); ++q) reduced_[first_[e] + q] = positive_part<dim>(reduced_[first_[e] + q]);
-  }
+  if (!is_discontinuous) return;
+  for (int q = 0; q < n_points; ++q) reduced[q] = positive_part<dim>(reduced[q]);
 }
 
 template class MorphedStiffness<2>;

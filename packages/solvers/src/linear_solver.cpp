@@ -10,6 +10,12 @@
 
 namespace perimorph::solvers {
 
+namespace {
+
+constexpr std::size_t most_factorized = 100000;  // rows: about 1 GB with the whole stiffness
+
+}  // namespace
+
 void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
                                 const Teuchos::RCP<Matrix>& preconditioner_matrix,
                                 const NearNullSpace& near_null_space) {
@@ -21,6 +27,7 @@ void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
 
 void LinearSolver::forget() {
   multigrid_.reset();
+  factorization_.reset();
   condition_ = Condition::missing;
   smoothing_ = Smoothing::fast;
 }
@@ -41,10 +48,11 @@ int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solutio
     outcome = attempt(right_hand_side, solution, relative_tolerance);
   }
   if (!outcome.converged) {
-    throw base::ComputationError(
-        fmt::format("conjugate gradients did not reduce the residual by {:.1e} within {} iterations, with a fresh, "
-                    "robust preconditioner{}{}",
-                    relative_tolerance, outcome.iterations, outcome.trouble.empty() ? "" : ": ", outcome.trouble));
+    throw base::ComputationError(fmt::format(
+        "conjugate gradients did not reduce the residual by {:.1e} within {} iterations, with a fresh, "
+        "robust preconditioner and {}{}{}",
+        relative_tolerance, outcome.iterations, is_factorized() ? "a factorization" : "one of a single level",
+        outcome.trouble.empty() ? "" : ": ", outcome.trouble));
   }
   judge(outcome.iterations, relative_tolerance);
   return outcome.iterations;
@@ -60,19 +68,33 @@ LinearSolver::Outcome LinearSolver::attempt(const MultiVector& right_hand_side, 
   return iterate(right_hand_side, solution, relative_tolerance);
 }
 
+bool LinearSolver::is_factorized() const {
+  return smoothing_ == Smoothing::one_level && preconditioner_matrix_->getGlobalNumRows() <= most_factorized;
+}
+
+void LinearSolver::build() {
+  multigrid_.reset();
+  factorization_.reset();
+  if (is_factorized()) {
+    factorization_ = std::make_unique<Factorization>(preconditioner_matrix_);
+  } else {
+    multigrid_ = std::make_unique<Multigrid>(preconditioner_matrix_, near_null_space_, parameters_.muelu, smoothing_);
+  }
+  fresh_rate_ = 0.;
+}
+
 void LinearSolver::prepare() {
   if (condition_ == Condition::good) return;
   const auto timer = profile_.measure(base::Phase::preconditioner);
-  const bool refresh = condition_ == Condition::aged && !refreshed_;
+  const bool refresh = condition_ == Condition::aged && !refreshed_ && multigrid_;
   try {
     if (refresh) {
       multigrid_->refresh();
     } else {
-      multigrid_ = std::make_unique<Multigrid>(preconditioner_matrix_, near_null_space_, parameters_.muelu, smoothing_);
-      fresh_rate_ = 0.;
+      build();
     }
   } catch (const std::exception& error) {
-    throw base::ComputationError(fmt::format("the multigrid preconditioner could not be set up: {}", error.what()));
+    throw base::ComputationError(fmt::format("the preconditioner could not be set up: {}", error.what()));
   }
   refreshed_ = refresh;
   excess_ = 0.;
@@ -85,7 +107,7 @@ LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, 
   const auto timer = profile_.measure(base::Phase::cg);
   const auto problem =
       Teuchos::rcp(new Problem(operator_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
-  problem->setLeftPrec(multigrid_->apply_inverse());
+  problem->setLeftPrec(multigrid_ ? multigrid_->apply_inverse() : factorization_->apply_inverse());
   problem->setProblem();
 
   const auto list = Teuchos::parameterList("Belos");

@@ -1,33 +1,35 @@
 #include "perimorph/solvers/multigrid.hpp"
 
 #include <MueLu_CreateTpetraPreconditioner.hpp>
+#include <MueLu_Utilities.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 
 #include "perimorph/base/errors.hpp"
+#include "single_precision_cycle.hpp"
 
 namespace perimorph::solvers {
 
 namespace {
 
-/// The largest eigenvalues belong to a few discontinuous elements: ten power iterations miss them, and a Chebyshev
-/// smoother then amplifies what it should damp, until the preconditioner is indefinite and CG breaks down. Thirty find
-/// them; Gauss-Seidel needs none, at twice the time. The drop tolerance halves the iterations with damage.
+/// The drop tolerance halves the iterations with damage. With sums of absolute values in place of the diagonal no
+/// eigenvalue need be estimated: none exceeds 1.
 Teuchos::ParameterList default_parameters(Multigrid::Smoothing smoothing) {
   Teuchos::ParameterList list("MueLu");
   list.set("verbosity", "none");
-  auto& smoother = list.sublist("smoother: params");
-  if (smoothing == Multigrid::Smoothing::fast) {
-    list.set("smoother: type", "CHEBYSHEV");
-    smoother.set("chebyshev: degree", 1);
-    smoother.set("chebyshev: ratio eigenvalue", 4.);
-    smoother.set("chebyshev: eigenvalue max iterations", 30);
-  } else {
-    list.set("smoother: type", "RELAXATION");
-    smoother.set("relaxation: type", "Symmetric Gauss-Seidel");
-    smoother.set("relaxation: sweeps", 1);
-  }
   list.set("aggregation: drop tol", 0.02);
+  list.set("sa: use rowsumabs diagonal scaling", true);
+  list.set("sa: max eigenvalue", 1.);
   list.set("coarse: max size", 100);
+  list.set("reuse: type", "RP");
+  if (smoothing == Multigrid::Smoothing::fast) {  // our own cycle has its own smoother
+    list.set("smoother: pre or post", "none");
+    list.set("coarse: type", "none");
+    return list;
+  }
+  list.set("smoother: type", "RELAXATION");
+  auto& smoother = list.sublist("smoother: params");
+  smoother.set("relaxation: type", "Symmetric Gauss-Seidel");
+  smoother.set("relaxation: sweeps", 1);
   list.set("coarse: type", "RELAXATION");
   auto& coarse = list.sublist("coarse: params");
   coarse.set("relaxation: type", "Symmetric Gauss-Seidel");
@@ -37,15 +39,33 @@ Teuchos::ParameterList default_parameters(Multigrid::Smoothing smoothing) {
     // Between ranks the sweeps are Jacobi's: one of them is positive definite for sure, several are not.
     coarse.set("relaxation: sweeps", 1);
   }
-  list.set("reuse: type", "RP");
   return list;
+}
+
+using Preconditioner = MueLu::TpetraOperator<double, int, base::GlobalId, Matrix::node_type>;
+
+std::vector<CycleLevel> levels_of(const Preconditioner& preconditioner) {
+  using LevelMatrix = Xpetra::Matrix<double, int, base::GlobalId, Matrix::node_type>;
+  using Utilities = MueLu::Utilities<double, int, base::GlobalId, Matrix::node_type>;
+  const auto hierarchy = preconditioner.GetHierarchy();
+  const auto matrix = [&](int level, const char* name) {
+    return Utilities::Op2TpetraCrs(hierarchy->GetLevel(level)->template Get<Teuchos::RCP<LevelMatrix>>(name));
+  };
+  std::vector<CycleLevel> levels;
+  for (int l = 0; l < hierarchy->GetNumLevels(); ++l) {
+    levels.push_back({matrix(l, "A"), Teuchos::null, Teuchos::null});
+    if (l == 0) continue;
+    levels[l - 1].restriction = matrix(l, "R");
+    levels[l - 1].prolongation = matrix(l, "P");
+  }
+  return levels;
 }
 
 }  // namespace
 
 struct Multigrid::Hierarchy {
   Teuchos::RCP<Matrix> matrix;
-  Teuchos::RCP<MueLu::TpetraOperator<double, int, base::GlobalId, Matrix::node_type>> preconditioner;
+  Teuchos::RCP<Preconditioner> preconditioner;
 };
 
 template <int dim>
@@ -79,21 +99,33 @@ NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Poi
 
 Multigrid::Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space,
                      const Teuchos::ParameterList& overrides, Smoothing smoothing)
-    : hierarchy_(std::make_unique<Hierarchy>()) {
+    : hierarchy_(std::make_unique<Hierarchy>()),
+      dim_(static_cast<int>(near_null_space.coordinates->getNumVectors())),
+      has_own_cycle_(smoothing == Smoothing::fast) {
   Teuchos::ParameterList list = default_parameters(smoothing);
   list.setParameters(overrides);
-  list.set("number of equations", static_cast<int>(near_null_space.coordinates->getNumVectors()));
+  list.set("number of equations", dim_);
   auto& data = list.sublist("user data");
   data.set("Nullspace", near_null_space.modes);
   data.set("Coordinates", near_null_space.coordinates);
   hierarchy_->matrix = matrix;
   hierarchy_->preconditioner = MueLu::CreateTpetraPreconditioner(Teuchos::rcp_static_cast<Operator>(matrix), list);
-  operator_ = hierarchy_->preconditioner;
+  make_operator();
 }
 
 Multigrid::~Multigrid() = default;
 
-void Multigrid::refresh() { MueLu::ReuseTpetraPreconditioner(hierarchy_->matrix, *hierarchy_->preconditioner); }
+void Multigrid::refresh() {
+  MueLu::ReuseTpetraPreconditioner(hierarchy_->matrix, *hierarchy_->preconditioner);
+  make_operator();
+}
+
+void Multigrid::make_operator() {
+  operator_ = hierarchy_->preconditioner;
+  if (!has_own_cycle_) return;
+  const auto levels = levels_of(*hierarchy_->preconditioner);
+  operator_ = dim_ == 2 ? make_single_precision_cycle<2>(levels) : make_single_precision_cycle<3>(levels);
+}
 
 template NearNullSpace rigid_body_modes<2>(const Matrix&, const std::vector<base::Point<2>>&);
 template NearNullSpace rigid_body_modes<3>(const Matrix&, const std::vector<base::Point<3>>&);

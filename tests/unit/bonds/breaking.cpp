@@ -66,6 +66,24 @@ TEST_F(Breaking, ThoseBreakWhoseDeformedLengthReachesTheCriticalOne) {
   EXPECT_EQ(body.bonds.break_overstretched(deformed(gradient), critical_stretch, classes), expected);
 }
 
+TEST_F(Breaking, StretchesOfBondsThatWouldBreakAreToldInOrderOfBondsAndBreakNothing) {
+  Eigen::Matrix2d gradient;
+  gradient << 1.03, 0.01, -0.02, 0.99;
+  const auto stretches = body.bonds.overstretches(deformed(gradient), critical_stretch, classes);
+
+  const auto broken = body.bonds.break_overstretched(deformed(gradient), critical_stretch, classes);
+
+  ASSERT_EQ(stretches.size(), broken.size());
+  std::size_t next = 0;
+  body.for_each_bond([&](int p, std::size_t b) {
+    if (next == broken.size() || b != broken[next]) return;
+    const auto [i, j] = body.ends(p, b);
+    const Point2 xi = body.points.position(j) - body.points.position(i);
+    EXPECT_NEAR(stretches[next++], (gradient * xi).norm() / xi.norm() - 1., 1e-14);
+  });
+  EXPECT_EQ(next, broken.size());
+}
+
 TEST_F(Breaking, ARotationAndACompressionBreakNothing) {
   EXPECT_TRUE(
       body.bonds

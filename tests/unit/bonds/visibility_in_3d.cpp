@@ -5,7 +5,7 @@
 #include <Teuchos_DefaultComm.hpp>
 #include <Tpetra_Core.hpp>
 
-#include "perimorph/bonds/broken_surface.hpp"
+#include "perimorph/bonds/crack.hpp"
 #include "perimorph/mesh/distribute.hpp"
 #include "support/meshes.hpp"
 

@@ -256,16 +256,31 @@ TEST(ExodusSeries, EveryStepIsReadableBeforeTheFileIsClosed) {
   }
 }
 
-TEST(ExodusSeries, LaterFilesOfAnEarlierRunAreRemoved) {
+TEST(ExodusSeries, FilesOfAnEarlierRunAreRemovedSpreadOnesToo) {
   const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e");
-  for (const auto* left_over : {"case.e", "case.e-s0002", "case.e-s0003", "other.e-s0002"}) {
-    std::ofstream(directory.file(left_over)) << "old";
-  }
-  ExodusSeries<2>(first, "", plate_names, {}).start(model_of({2, 3, 0}));
-  EXPECT_FALSE(std::filesystem::exists(first + "-s0002"));
-  EXPECT_FALSE(std::filesystem::exists(first + "-s0003"));
-  EXPECT_TRUE(std::filesystem::exists(directory.file("other.e-s0002")));
+  const std::vector<std::string> foreign = {"other.e-s0002", "case.e.txt", "case.e.2", "case.e.2.0.bak"};
+  const std::vector<std::string> old = {"case.e", "case.e.2.0", "case.e.2.1", "case.e-s0002.12.07", "case.e-s0003"};
+  for (const auto& name : foreign) std::ofstream(directory.file(name)) << "old";
+  for (const auto& name : old) std::ofstream(directory.file(name)) << "old";
+  ExodusSeries<2>(first, "", plate_names, {}).remove_the_rest();
+  for (const auto& name : old) EXPECT_FALSE(std::filesystem::exists(directory.file(name))) << name;
+  for (const auto& name : foreign) EXPECT_TRUE(std::filesystem::exists(directory.file(name))) << name;
+}
+
+TEST(ExodusSeries, APartIsNamedByRankAndHasTheNodesNumbersAndEmptyBlocks) {
+  const tests::TemporaryDirectory directory;
+  const Plate plate{2, 3, 0};
+  auto model = model_of(plate);
+  for (std::size_t n = 0; n < model.coordinates.size(); ++n) model.node_ids.push_back(100 + static_cast<long long>(n));
+  model.blocks.push_back({"plate_PD", mesh::ElementType::quad4, {}, {}, 13});
+  ExodusSeries<2> part(directory.file("case.e"), "", plate_names, {}, io::SpreadPart{7, 12});
+  part.start(model);
+  part.write(step_of(plate, model, 1., 0.1));
+
+  tests::ExodusFile copy(directory.file("case.e.12.07"));
+  EXPECT_EQ(copy.node_ids().front(), 101);
+  EXPECT_EQ(copy.names(EX_ELEM_BLOCK).back(), "plate_PD");
 }
 
 template <class Work>

@@ -64,6 +64,12 @@ class ExodusFile {
     return ids;
   }
 
+  std::vector<int> node_ids() const {
+    std::vector<int> ids(sizes.num_nodes);
+    EXPECT_EQ(ex_get_id_map(id_, EX_NODE_MAP, ids.data()), 0);
+    return ids;
+  }
+
   /// Entries and extras (sides of a side set) of the set.
   std::pair<std::vector<int>, std::vector<int>> set(ex_entity_type kind, int number) const {
     int n = 0, n_factors = 0;

@@ -106,5 +106,36 @@ TEST(History, ARowOfTheWrongLengthIsABug) {
   EXPECT_THROW(history.write({1}), base::Bug);
 }
 
+TEST(History, TextsStandAmongNumbers) {
+  const tests::TemporaryDirectory directory;
+  const std::string file = directory.file("probes.csv");
+  History history(file, {"increment", "probe"});
+  history.write_texts({"1", "tip, left"});
+  EXPECT_EQ(text_of(file), "increment,probe\n1,\"tip, left\"\n");
+}
+
+/// A file that an earlier run has left, and what is left of it when a run goes on after an increment.
+std::string resumed(const std::string& rows, int increment, History::Rows kind = History::Rows::in_each_increment) {
+  const tests::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+  std::ofstream(file) << "increment,x\n" << rows;
+  History::resume(file, {"increment", "x"}, increment, kind).write({99, 1});
+  return text_of(file);
+}
+
+TEST(History, GoesOnAfterAllRowsOfAnIncrement) {
+  EXPECT_EQ(resumed("1,5\n1,6\n2,7\n2,8\n3,9\n", 2), "increment,x\n1,5\n1,6\n2,7\n2,8\n99,1\n");
+}
+
+TEST(History, ALineThatWasCutOffIsNoRow) {
+  EXPECT_EQ(resumed("1,5\n11,6\n12,7\n1", 12), "increment,x\n1,5\n11,6\n12,7\n99,1\n");  // of 13
+}
+
+TEST(History, OnlyATableWithRowsInEachIncrementMustReachTheIncrement) {
+  const std::string message = message_of<base::UserError>([] { resumed("1,5\n", 2); });
+  EXPECT_THAT(message, HasSubstr("history.csv: it cannot be continued: increment 2 is missing"));
+  EXPECT_EQ(resumed("1,5\n", 2, History::Rows::in_some), "increment,x\n1,5\n99,1\n");
+}
+
 }  // namespace
 }  // namespace perimorph

@@ -53,6 +53,24 @@ TEST(ExodusErrors, AFileTruncatedAnywhereIsAnError) {
   }
 }
 
+/// HDF5's library crashes on some of these.
+TEST(ExodusErrors, AnHdf5FileDamagedAnywhereIsReadOrRefused) {
+  const std::string text = exodus_text(grid<2>({2, 1}), {modes[1]});
+  int n_refused = 0;
+  for (std::size_t place = 8; place < text.size(); place += 1 + text.size() / 80) {
+    std::string damaged = text;
+    damaged.replace(place, 4, "\x7f\xff\xff\xff");
+    const std::string file = written("damaged.e", damaged);
+    try {
+      EXPECT_GT(read_mesh<2>(file).n_elements(), 0);
+    } catch (const base::UserError& error) {
+      EXPECT_THAT(error.what(), StartsWith(file + ":"));
+      ++n_refused;
+    }
+  }
+  EXPECT_GT(n_refused, 10);
+}
+
 TEST(ExodusErrors, CountsThatTheFileCannotHold) {
   const std::string text = exodus_text(grid<2>({2, 1}));
   for (const char* name : {"num_nodes", "num_elem", "num_el_blk", "num_node_sets", "num_side_sets", "num_el_in_blk1",

@@ -154,5 +154,27 @@ TEST(MorphedStiffness, IsPositiveInDiscontinuousElements) {
   EXPECT_GT(n_indefinite, 0);  // elsewhere, so that the clipping is seen
 }
 
+TEST(MorphedStiffness, IsTheSameAfterTheZoneHasGrownAsIfItHadBeenThereFromTheStart) {
+  CoupledBody body(hybrid(PeridynamicStiffness::kept, true));
+  const auto before = body.elasticity;
+  body.bonds.extend(body.alpha.add({morphing::Zone<2>::ball(body.points.position(0), 2., 4.)}));
+  for (int e = 0; e < body.mesh.n_elements(); e += 3) body.discontinuous[e] = !body.discontinuous[e];
+  operators::MorphedStiffness<2> afresh(body.e0, PeridynamicStiffness::kept);
+
+  for (auto* elasticity : {&body.elasticity, &afresh}) {
+    elasticity->update(body.mesh, body.points, body.bonds, body.alpha, body.classes, body.discontinuous);
+  }
+
+  int n_changed = 0;
+  for (int e = 0; e < body.mesh.n_elements(); ++e) {
+    for (int q = 0; q < body.points.count(e); ++q) {
+      EXPECT_EQ(body.elasticity.at(e, q), afresh.at(e, q));
+      n_changed += body.elasticity.at(e, q) != before.at(e, q);
+    }
+  }
+  EXPECT_GT(n_changed, 0);
+  EXPECT_LT(n_changed, body.points.size());
+}
+
 }  // namespace
 }  // namespace perimorph::tests

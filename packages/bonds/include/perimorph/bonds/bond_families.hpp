@@ -65,6 +65,11 @@ class BondFamilies {
   };
   Extremes neighbourhood_extremes(const morphing::MorphingField<dim>& alpha) const;
 
+  /// Stretches of the bonds that break_overstretched() would break; those of which this rank owns the first element, so
+  /// that each comes from one rank. Local.
+  std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
+                                    const std::vector<morphing::ElementClass>& classes) const;
+
   /// Breaks every intact bond whose stretch reaches the critical one [WHL19, eq. 6, 7], between two different elements
   /// that both may break. Returns them, ascending. Local: every rank that holds a bond decides alike.
   /// @param displacements at the points, [length]; only those of elements with bonds are read
@@ -92,6 +97,9 @@ class BondFamilies {
   std::vector<double> family_volume_, lost_volume_;
   std::vector<char> damaged_;
 
+  template <class Visit>
+  void for_each_overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
+                              const std::vector<morphing::ElementClass>& classes, Visit visit) const;
   void add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles);
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "perimorph/base/algebra.hpp"
@@ -30,5 +31,12 @@ struct ReferenceElement {
 ///        or 4 (T4), and 6 or 11 points
 template <int dim>
 const ReferenceElement<dim>& reference_element(mesh::ElementType type, int points_per_direction = 2);
+
+/// Shape function values at a point that lies in an element, or within 1e-6 of its size; none for others. Local.
+/// @param corners of the element, [length]
+/// @param x the point, (dim), [length]
+template <int dim>
+std::optional<CornerValues> shape_at(mesh::ElementType type, const std::vector<base::Point<dim>>& corners,
+                                     const base::Point<dim>& x);
 
 }  // namespace perimorph::elements

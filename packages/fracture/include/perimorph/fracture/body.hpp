@@ -8,6 +8,7 @@
 #include "perimorph/base/profile.hpp"
 #include "perimorph/fracture/problem.hpp"
 #include "perimorph/operators/coupled_stiffness.hpp"
+#include "perimorph/operators/crack_faces.hpp"
 #include "perimorph/operators/matrix_free_stiffness.hpp"
 #include "perimorph/solvers/linear_solver.hpp"
 
@@ -21,6 +22,7 @@ struct BodyOptions {
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o, [length]
   double tolerance;                                 ///< residual over reaction forces in accepted solutions
   double damage_tolerance;                          ///< the same while bonds break
+  double breaking_fraction = 1.;                    ///< share of the overstretched bonds that break between two solves
   OperatorForm operator_form = OperatorForm::matrix_free;
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
   double short_range_cut_off = 0.;  ///< [length]
@@ -92,7 +94,8 @@ class Body {
   /// @throws ComputationError if the solver fails.
   void solve(Accuracy accuracy);
 
-  /// Breaks bonds whose stretch reached the critical one; returns how many.
+  /// Breaks bonds whose stretch reached the critical one, or the worst of them (BodyOptions::breaking_fraction);
+  /// returns how many.
   base::GlobalId break_bonds();
 
   /// Makes the centroids of newly damaged elements flag points, around which alpha will grow; returns how many.
@@ -112,6 +115,9 @@ class Body {
   const Counts& counts() const { return counts_; }
   Energies energies() const;
   double load_factor() const { return load_factor_; }
+
+  /// Where crack faces have passed furthest through each other, since there is no contact.
+  operators::Overlap<dim> overlap() const;
 
   // For results; local.
   operators::CoupledModel<dim> model() const;
@@ -145,6 +151,7 @@ class Body {
   std::vector<morphing::ElementClass> classes_;
   std::vector<char> discontinuous_, flagged_;
   std::unique_ptr<discretization::DofMap<dim>> dofs_;
+  std::vector<operators::FacingSides> facing_sides_;  ///< that may be crack faces, in this topology
   Teuchos::RCP<operators::MatrixFreeStiffness<dim>> stiffness_;
   // The same as a matrix, and the short-range matrix; null if neither operator nor preconditioner needs them.
   std::unique_ptr<operators::CoupledStiffness<dim>> matrix_, short_range_;
@@ -174,6 +181,7 @@ class Body {
   void grow_again(const BodyState<dim>& state);
   BrokenByCall find_broken(const BodyState<dim>& state) const;
   void move_to(const std::vector<double>& displacement);
+  double breaking_stretch() const;
   void take_out(const std::vector<std::size_t>& broken);
   void classify();
   bool find_discontinuous();

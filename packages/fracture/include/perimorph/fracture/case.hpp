@@ -13,10 +13,12 @@ namespace perimorph::fracture {
 
 using materials::ElasticModel;
 using operators::PeridynamicStiffness;
-enum class SeedShape { ball, cylinder, box, everything };  ///< a ball is a circle in 2D, a sphere in 3D
-enum class PreCrackShape { polyline, polygon, disc };      ///< the first in 2D, the others in 3D
+/// A ball is a circle in 2D, a sphere in 3D; automatic ones are balls where the elastic body is stretched most.
+enum class SeedShape { ball, cylinder, box, everything, automatic };
+enum class PreCrackShape { polyline, polygon, disc };  ///< the first in 2D, the others in 3D
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
+enum class Calibration { analytic, mesh_consistent };  ///< of the critical stretch and the fracture energy
 enum class OperatorForm { crs, matrix_free };
 enum class PreconditionerMatrix { coupled, short_range };
 
@@ -26,9 +28,10 @@ struct Seed {
   SeedShape shape;
   std::vector<double> center;                      ///< ball: (dim)
   std::vector<double> start, end;                  ///< cylinder: the ends of its axis, (dim)
-  double inner_radius = 0., outer_radius = 0.;     ///< ball, cylinder: r1, r2
+  double inner_radius = 0., outer_radius = 0.;     ///< ball, cylinder, automatic: r1, r2
   std::vector<double> lower_corner, upper_corner;  ///< box: (dim)
   double rim = 0.;                                 ///< box: width over which alpha falls from 1 to 0
+  double share = 0.;                               ///< automatic: of the largest strain, that others must reach [-]
 };
 
 /// A polyline (2D), or a flat convex polygon or a disc (3D), along which there are no bonds and elements part.
@@ -53,6 +56,13 @@ struct Traction {
   std::vector<double> rate, constant;
 };
 
+/// Points, and lines between them, at which displacement and stress are recorded.
+struct Probe {
+  std::string name;
+  std::vector<double> points;  ///< x1 y1 x2 y2 ..., at least one point, [length]
+  int divisions;               ///< of each segment between a point and the next
+};
+
 /// Everything that a case file says, complete and checked by itself (not yet against the mesh).
 struct Case {
   std::string file;       ///< of the case, as given
@@ -67,6 +77,7 @@ struct Case {
   double youngs_modulus, poissons_ratio;
   ElasticModel elastic_model;
   std::optional<double> critical_stretch, fracture_energy;  ///< at most one; none: nothing breaks
+  Calibration calibration;
 
   double horizon, characteristic_length;
 
@@ -84,6 +95,7 @@ struct Case {
   int increments;
   int max_damage_iterations;  ///< solves within one increment
   int max_zone_growths;       ///< changes of topology within one increment
+  double breaking_fraction;   ///< share of the overstretched bonds that break between two solves
 
   OperatorForm operator_form;
   PreconditionerMatrix preconditioner_matrix;
@@ -92,12 +104,18 @@ struct Case {
   double damage_tolerance;     ///< the same while bonds break
   int max_cg_iterations;
   double renewal_cost;                  ///< of the preconditioner, in iterations
+  double largest_imbalance;             ///< of the ranks' work, before it is parted anew
   Teuchos::ParameterList belos, muelu;  ///< overrides, free-form
 
   int output_every;           ///< fields are written every so many increments, at every break, and at the last one
+  bool spread_files;          ///< fields in a file of each rank
   int checkpoint_every;       ///< increments; 0: not by these
   double checkpoint_minutes;  ///< 0: not by time
   std::vector<std::string> reactions;  ///< groups whose reaction is recorded; default: all with prescribed displacement
+
+  std::vector<Probe> probes;
+  bool records_crack;                ///< its size and path
+  std::vector<int> bond_increments;  ///< after which all bonds are written
 
   Teuchos::ParameterList resolved;  ///< every parameter with its value, defaults filled in
 };
@@ -118,5 +136,8 @@ std::string describe_schema();
 
 /// The same as a Markdown page, packages/PARAMETERS.md.
 std::string describe_schema_in_markdown();
+
+/// The schema in RELAX NG (XML syntax), for editors: names, types, and words where only some are allowed.
+std::string describe_schema_in_relax_ng();
 
 }  // namespace perimorph::fracture

@@ -27,17 +27,29 @@ class Checkpoints {
   /// @throws UserError if the checkpoint that was loaded belongs to another.
   void identify(const mesh::Mesh<dim>& whole);
 
+  /// The cost of each element by which the mesh is to be parted among the ranks: as when the checkpoint was written, or
+  /// as expected. On rank 0. Local.
+  const std::vector<double>& costs() const { return costs_; }
+  void expect_costs(std::vector<double> costs) {
+    if (costs_.empty()) costs_ = std::move(costs);
+  }
+
   /// The increment that was loaded, 0 if none was, and what the results had come to. Local.
   int increment() const { return increment_; }
   const std::optional<ResultsState>& results() const { return results_; }
 
-  /// The body goes on from what was loaded; checkpoints after that are removed. Collective.
+  /// The body goes on from what was loaded, or from what is remembered after is_to_be_parted_anew(); checkpoints after
+  /// that are removed. Collective.
   void restore(Body<dim>& body);
 
   /// Remembers an accepted increment, and writes it if it is due. At every /Output/Checkpoint Every increments, the run
-  /// itself goes on as one that starts from there would, to the last bit. Collective.
+  /// itself goes on as one that starts from there would, to the last bit. Decides whether the ranks share the work too
+  /// unevenly. Collective.
   /// @throws ComputationError if it is due and cannot be written.
   void accept(int increment, Body<dim>& body, const Results<dim>& results);
+
+  /// From the last accepted increment on, another partition of the mesh would be better. Local.
+  bool is_to_be_parted_anew() const { return is_to_be_parted_anew_; }
 
   /// @throws ComputationError if a signal has asked the run to stop. Collective.
   void heed_signals();
@@ -52,7 +64,11 @@ class Checkpoints {
   std::string case_lines_;
   int every_, last_increment_;
   double seconds_;  ///< between two of them
+  double largest_imbalance_;
   std::vector<base::GlobalId> mesh_identity_;
+
+  std::vector<double> costs_;  ///< on rank 0, by element
+  bool is_to_be_parted_anew_ = false;
 
   int increment_ = 0;        ///< loaded or remembered last
   bool is_on_disk_ = false;  ///< that one
@@ -69,6 +85,7 @@ class Checkpoints {
   io::Checkpoint gather() const;
   std::vector<base::GlobalId> own_ids_;  ///< of elements, in the order of body_.displacement
   bool is_due(int increment);
+  void balance(const Body<dim>& body);
 };
 
 }  // namespace perimorph::fracture

@@ -9,6 +9,13 @@
 
 namespace perimorph::fracture {
 
+/// A seed whose place follows from the elastic solution (place_automatic_seeds).
+struct AutomaticSeed {
+  std::string name;
+  double inner_radius, outer_radius;  ///< of each zone, [length]
+  double share;                       ///< of the largest strain, that a further zone's place must reach [-]
+};
+
 /// A case in the terms of the packages that compute it.
 template <int dim>
 struct Problem {
@@ -21,6 +28,9 @@ struct Problem {
   std::vector<discretization::PrescribedComponent> displacements;
   discretization::Loads<dim> loads;
   bool is_proportional;  ///< all loads grow with the increment from zero
+  std::vector<AutomaticSeed> automatic_seeds = {};
+
+  bool has_zones() const { return !seeds.empty() || !automatic_seeds.empty(); }
 };
 
 template <int dim>
@@ -35,7 +45,9 @@ mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const
                                 const std::string& folder);
 
 /// Each rank's part of it, with a halo as the problem needs it. Collective.
+/// @param costs of each element of the whole mesh (on rank 0), or empty for equal ones
 template <int dim>
-mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem);
+mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+                                const std::vector<double>& costs = {});
 
 }  // namespace perimorph::fracture

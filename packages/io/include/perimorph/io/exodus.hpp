@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,7 @@
 
 namespace perimorph::io {
 
-/// The body in its current topology, as one Exodus file describes it. Lives on rank 0.
+/// The body in its current topology, or one rank's part of it, as one Exodus file describes it.
 template <int dim>
 struct ExodusModel {
   struct Block {
@@ -19,7 +20,8 @@ struct ExodusModel {
     int id = 0;  ///< the same for a name in all files of a series, or ParaView reads it twice; 0: its place, from 1
   };
   std::vector<base::Point<dim>> coordinates;                 ///< of the current topology's nodes, [length]
-  std::vector<Block> blocks;                                 ///< none of them empty
+  std::vector<base::GlobalId> node_ids;                      ///< of the body's nodes, 0-based; {} if all are here
+  std::vector<Block> blocks;                                 ///< only those of a part may be empty
   std::map<std::string, std::vector<int>> node_sets;         ///< 0-based nodes of this model
   std::map<std::string, std::vector<mesh::Side>> side_sets;  ///< element: position in the concatenated blocks, 0-based
 };
@@ -32,13 +34,19 @@ struct ExodusStep {
   std::vector<std::vector<double>> element;  ///< [variable][element]
 };
 
+/// Whose part of the body a series of spread files holds: "case.e.<ranks>.<rank>".
+struct SpreadPart {
+  int rank, n_ranks;
+};
+
 /// How far a series is: files, and steps in the last one.
 struct SeriesExtent {
   int files = 0, steps = 0;
 };
 
-/// A series of Exodus files: a new file at every change of topology, "case.e", "case.e-s0002", "case.e-s0003", ...
-/// ParaView opens it as one. Every step is flushed, so that a file is readable whatever happens later. Local (rank 0).
+/// A series of Exodus files: a new file at every change of topology, "case.e", "case.e-s0002", "case.e-s0003", ... or
+/// in its place one spread file of each rank, "case.e.4.0" to "case.e.4.3". ParaView opens all as one. Every step is
+/// flushed, so that a file is readable whatever happens later. Local: on rank 0, or each rank its part.
 template <int dim>
 class ExodusSeries {
  public:
@@ -48,17 +56,22 @@ class ExodusSeries {
 
   /// @param file name of the first file, ".../case.e"
   /// @param information lines for the files' info records (the resolved case)
-  ExodusSeries(std::string file, std::string title, Names names, std::vector<std::string> information);
+  /// @param part this rank's part of spread files, or none: the body is whole
+  ExodusSeries(std::string file, std::string title, Names names, std::vector<std::string> information,
+               std::optional<SpreadPart> part = {});
   ~ExodusSeries();
   ExodusSeries(const ExodusSeries&) = delete;
   ExodusSeries& operator=(const ExodusSeries&) = delete;
 
   SeriesExtent extent() const { return {n_files_, n_steps_}; }
 
-  /// Goes on with a series that an earlier run has left: what lies beyond the extent is removed, and start() begins the
-  /// file after it.
-  /// @throws UserError naming the file, if steps beyond the extent cannot be removed.
+  /// Goes on with a series that an earlier run has left: start() begins the file after this extent.
   void resume(const SeriesExtent& extent);
+
+  /// What lies beyond the extent so far, also in spread files of any number of ranks, is removed; before anything has
+  /// been written, all that an older series has left. On rank 0, before any rank goes on.
+  /// @throws UserError naming the file, if steps beyond the extent cannot be removed.
+  void remove_the_rest() const;
 
   /// Closes the current file, if any, and starts the next one with this model.
   /// @throws ComputationError naming the file, if it cannot be written.
@@ -69,7 +82,7 @@ class ExodusSeries {
   void write(const ExodusStep& step);
 
  private:
-  std::string file_, title_;
+  std::string file_, title_, part_ending_;
   Names names_;
   std::vector<std::string> information_;
   int exodus_id_ = -1;

@@ -23,4 +23,15 @@ template <int dim>
 ElementFields<dim> element_fields(const CoupledModel<dim>& model, const double* u,
                                   const std::vector<base::Point<dim>>& at_points);
 
+/// Stress at each material point of one owned element, (n_points), [stress]; element_fields' is their mean. Arguments
+/// as there. Local.
+template <int dim>
+std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, int element, const double* u,
+                                               const std::vector<base::Point<dim>>& at_points);
+
+/// The largest eigenvalue of the strain at any material point of an element [-]: the largest stretch of a bond, were
+/// the strain around it uniform. Local.
+template <int dim>
+double largest_principal_strain(const CoupledModel<dim>& model, int element, const double* u);
+
 }  // namespace perimorph::operators

@@ -35,6 +35,9 @@ class MatrixFreeStiffness : public Tpetra::Operator<double> {
   /// Takes newly broken bonds out. Local.
   void subtract(const std::vector<std::size_t>& broken) { bonds_.subtract(broken); }
 
+  /// Multiplies the springs that anchor the nodes of discontinuous elements. Local.
+  void scale_anchors(double factor);
+
   std::size_t bytes() const { return bonds_.bytes() + local_.bytes(); }  ///< of memory
 
  private:

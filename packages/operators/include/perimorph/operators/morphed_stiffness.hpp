@@ -19,8 +19,8 @@ class MorphedStiffness {
  public:
   MorphedStiffness(const base::Stiffness<dim>& e0, PeridynamicStiffness policy) : e0_(e0), policy_(policy) {}
 
-  /// Recomputes all; needed after alpha or the bonds have grown, or elements were split. Right for active elements.
-  /// Local.
+  /// Recomputes the elements that are touched; needed after alpha or the bonds have grown, or elements were split.
+  /// Mesh, points and bonds are always the same ones. Right for active elements. Local.
   void update(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
               const bonds::BondFamilies<dim>& bonds, const morphing::MorphingField<dim>& alpha,
               const std::vector<morphing::ElementClass>& classes, const std::vector<char>& discontinuous);
@@ -41,6 +41,21 @@ class MorphedStiffness {
   std::vector<int> first_;  ///< position of an element's first point in reduced_; -1 for E0
   std::vector<base::Stiffness<dim>> reduced_;
   std::vector<char> is_zero_;
+
+  /// What an element's E(x) was computed from, beside alpha.
+  struct Seen {
+    std::size_t n_pairs = 0;
+    char is_zero = 0, is_discontinuous = 0;
+    bool operator==(const Seen& other) const {
+      return n_pairs == other.n_pairs && is_zero == other.is_zero && is_discontinuous == other.is_discontinuous;
+    }
+  };
+  std::vector<Seen> seen_;     ///< per element, at the last update
+  std::vector<double> alpha_;  ///< per point, at the last update
+
+  std::vector<char> take_over(const elements::MaterialPoints<dim>& points, const morphing::MorphingField<dim>& alpha);
+  void compute(int element, const elements::MaterialPoints<dim>& points, const bonds::BondFamilies<dim>& bonds,
+               bool is_discontinuous);
 };
 
 }  // namespace perimorph::operators

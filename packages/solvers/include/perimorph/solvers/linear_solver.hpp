@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "perimorph/base/profile.hpp"
+#include "perimorph/solvers/factorization.hpp"
 #include "perimorph/solvers/multigrid.hpp"
 
 namespace perimorph::solvers {
@@ -31,7 +32,8 @@ class LinearSolver {
 
   /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Returns the iterations. Collective.
   /// If the iteration breaks down or does not converge, it is tried again with a rebuilt, robust preconditioner, and
-  /// then with one of a single level. @throws ComputationError if that fails too.
+  /// then with the last one: a factorization of the preconditioner's matrix, or a single level where that would take
+  /// too much memory. @throws ComputationError if that fails too.
   int solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 
  private:
@@ -44,11 +46,14 @@ class LinearSolver {
   Teuchos::RCP<Matrix> preconditioner_matrix_;
   NearNullSpace near_null_space_;
   std::unique_ptr<Multigrid> multigrid_;
+  std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
   Condition condition_ = Condition::missing;
   bool refreshed_ = false;  ///< since the last rebuild
   Smoothing smoothing_ = Smoothing::fast;
 
+  bool is_factorized() const;
   void prepare();
+  void build();
   struct Outcome {
     bool converged;
     int iterations;

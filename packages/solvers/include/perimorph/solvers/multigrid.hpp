@@ -23,13 +23,12 @@ struct NearNullSpace {
 template <int dim>
 NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Point<dim>>& coordinates);
 
-/// Smoothed-aggregation multigrid (MueLu) for elasticity, with symmetric Gauss-Seidel on the coarsest level (KLU2 is
-/// wrong on more than one rank). Made for one matrix pattern.
+/// Smoothed-aggregation multigrid for elasticity: MueLu's hierarchy and our V-cycle (KLU2, on MueLu's coarsest level,
+/// is wrong on more than one rank). Made for one matrix pattern.
 class Multigrid {
  public:
-  /// Chebyshev polynomials (fast); symmetric Gauss-Seidel (robust), which cannot make the preconditioner indefinite
-  /// unless the coarse matrices are rounding errors, as in a body that is all floating pieces; the same without coarse
-  /// levels.
+  /// Our cycle in single precision (fast); MueLu's with symmetric Gauss-Seidel in double precision (robust); the same
+  /// without coarse levels, which are rounding errors in a body that is all floating pieces.
   enum class Smoothing { fast, robust, one_level };
 
   /// Sets it up. @param overrides parameters of MueLu that replace or add to ours. Collective.
@@ -45,7 +44,11 @@ class Multigrid {
  private:
   struct Hierarchy;
   std::unique_ptr<Hierarchy> hierarchy_;
+  int dim_;
+  bool has_own_cycle_;
   Teuchos::RCP<Operator> operator_;
+
+  void make_operator();
 };
 
 }  // namespace perimorph::solvers

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+
+#include "perimorph/bonds/crack.hpp"
+#include "perimorph/fracture/probes.hpp"
+#include "perimorph/io/history.hpp"
+
+namespace perimorph::fracture {
+
+/// What a run writes beside history.csv and the fields, if the case asks for it: probes.csv, crack.csv and
+/// crack_path.csv, bonds-<increment>.vtp. Rank 0 writes; the order of rows and bonds does not depend on the ranks.
+template <int dim>
+class Exports {
+ public:
+  /// Goes on with the tables of an earlier run after that increment, if it is not 0. Collective.
+  /// @throws UserError if they cannot be written, or the earlier ones are not there.
+  Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+          const std::string& folder, int increment);
+
+  /// The sides that are open in this body were so before: an earlier run has written them. Collective.
+  void take_over(const Body<dim>& body);
+
+  /// Records an increment. Collective. @throws ComputationError if a file cannot be written.
+  void accept(int increment, const Body<dim>& body);
+
+ private:
+  Teuchos::RCP<const base::Comm> comm_;
+  std::string folder_;
+  Probes<dim> probes_;
+  double horizon_;
+  std::vector<int> bond_increments_;
+  std::unique_ptr<io::History> probe_table_, crack_table_, path_table_;  ///< on rank 0, if asked for
+  bool records_crack_;
+  std::set<bonds::OpenSide<dim>> known_sides_;  ///< on rank 0
+
+  void open_tables(int increment);
+  void record_probes(int increment, const Body<dim>& body);
+  void record_crack(int increment, const Body<dim>& body);
+  void write_bonds(int increment, const Body<dim>& body) const;
+};
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "perimorph/elements/locator.hpp"
+#include "perimorph/fracture/body.hpp"
+
+namespace perimorph::fracture {
+
+/// Where a probe measures: the given points and those that divide the segments between them, in order.
+template <int dim>
+std::vector<base::Point<dim>> places_of(const Probe& probe);
+
+/// All probes of a case in one mesh. A place is in the element of the lowest global id that holds it, whatever the
+/// ranks: where elements have parted, on one side of the crack.
+template <int dim>
+class Probes {
+ public:
+  /// What was measured at one place: displacement [length]; stress [stress], interpolated from the element's material
+  /// points by the shape functions that take their values there.
+  struct Sample {
+    int place;  ///< in the order of places()
+    std::array<double, dim> displacement;
+    std::array<double, base::n_voigt<dim>> stress;
+  };
+
+  /// Collective.
+  Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<Probe>& probes);
+
+  /// A probe's name, the number of the place in it from 1, and the place.
+  struct Place {
+    std::string probe;
+    int number;
+    base::Point<dim> position;
+  };
+  const std::vector<Place>& places() const { return places_; }
+
+  /// One sample for each place, in their order, on rank 0. Collective.
+  std::vector<Sample> measure(const base::Comm& comm, const Body<dim>& body) const;
+
+ private:
+  std::vector<Place> places_;
+  struct Located {
+    int place;
+    elements::Location location;
+  };
+  std::vector<Located> own_;
+};
+
+}  // namespace perimorph::fracture

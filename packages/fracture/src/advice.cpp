@@ -1,0 +1,115 @@
+#include "perimorph/fracture/advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "perimorph/fracture/calibration.hpp"
+
+namespace perimorph::fracture {
+
+namespace {
+
+/// Below these, and what it costs: tests/verification/README.md has the measurements.
+constexpr double least_length = 0.3;   // characteristic, in element sizes
+constexpr double least_horizon = 3.;   // in element sizes
+constexpr double most_cut_off = 0.05;  // of the micromodulus, by the horizon
+constexpr double least_rim = 1.;       // over which alpha falls, in horizons
+constexpr double least_zone = 2.;      // inner radius, in horizons
+
+class Advice {
+ public:
+  Advice(const Case& input, double element_size) : input_(input), size_(element_size) {}
+
+  std::vector<std::string> all() {
+    if (input_.seeds.empty()) return {};
+    check_resolution();
+    for (const Seed& seed : input_.seeds) check_seed(seed);
+    check_growth();
+    return std::move(lines_);
+  }
+
+ private:
+  bool breaks() const { return input_.critical_stretch || input_.fracture_energy; }
+
+  template <class... Values>
+  void add(const std::string& path, fmt::format_string<Values...> what, Values&&... values) {
+    lines_.push_back(path + ": " + fmt::format(what, std::forward<Values>(values)...));
+  }
+
+  void check_resolution() {
+    const double length = input_.characteristic_length / size_, horizon = input_.horizon / size_;
+    if (breaks() && length < least_length) {
+      const double resistance = lattice_resistance(input_.discontinuous, input_.peridynamic_stiffness, length);
+      add("/Peridynamics/Characteristic Length",
+          "{:.4g} is {:.2f} of an element; the mesh then holds cracks up, to {:.2f} of the load of fracture "
+          "mechanics{}. "
+          "Better is a third of an element, {:.3g}, with a horizon of four",
+          input_.characteristic_length, length, resistance,
+          input_.calibration == Calibration::analytic
+              ? ""
+              : " (for which the critical stretch makes up), and they move in jumps",
+          size_ / 3.);
+    }
+    if (horizon < least_horizon) {
+      add("/Peridynamics/Horizon", "{:.4g} is {:.1f} elements; with fewer than three, cracks follow the mesh",
+          input_.horizon, horizon);
+    }
+    const double whole = materials::kernel_moment(5, input_.characteristic_length, 40. * input_.characteristic_length);
+    const double cut_off = 1. - materials::kernel_moment(5, input_.characteristic_length, input_.horizon) / whole;
+    if (cut_off > most_cut_off) {
+      add("/Peridynamics/Horizon",
+          "{:.4g} is {:.1f} characteristic lengths and cuts off {:.0f} % of the micromodulus; below eleven, results "
+          "depend on it",
+          input_.horizon, input_.horizon / input_.characteristic_length, 100. * cut_off);
+    }
+  }
+
+  void check_seed(const Seed& seed) {
+    const std::string path = "/Morphing/Seeds/" + seed.name;
+    if (seed.shape == SeedShape::ball) {
+      check_rim(path + "/Outer Radius", seed.outer_radius - seed.inner_radius);
+      if (breaks()) check_zone(path + "/Inner Radius", seed.inner_radius);
+    } else if (seed.shape == SeedShape::box) {
+      check_rim(path + "/Rim", seed.rim);
+      double narrowest = seed.upper_corner[0] - seed.lower_corner[0];
+      for (std::size_t i = 1; i < seed.upper_corner.size(); ++i) {
+        narrowest = std::min(narrowest, seed.upper_corner[i] - seed.lower_corner[i]);
+      }
+      if (breaks()) check_zone(path + "/Upper Corner", 0.5 * narrowest);
+    }
+  }
+
+  void check_growth() {
+    if (!breaks()) return;
+    check_rim("/Morphing/Growth Outer Radius", input_.growth_outer_radius - input_.growth_inner_radius);
+    check_zone("/Morphing/Growth Inner Radius", input_.growth_inner_radius);
+  }
+
+  void check_rim(const std::string& path, double rim) {
+    if (rim >= least_rim * input_.horizon) return;
+    add(path,
+        "alpha falls over {:.4g}, {:.2f} horizons; where the models meet, strains are then wrong by 3.5 % at half a "
+        "horizon and "
+        "7.6 % at a quarter, against 2.5 % from one horizon on",
+        rim, rim / input_.horizon);
+  }
+
+  void check_zone(const std::string& path, double radius) {
+    if (radius >= least_zone * input_.horizon) return;
+    add(path,
+        "the zone reaches {:.4g}, {:.2f} horizons, from its centre; bonds break only where it is one horizon deeper. "
+        "Better are two horizons or more",
+        radius, radius / input_.horizon);
+  }
+
+  const Case& input_;
+  double size_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> advice(const Case& input, double element_size) { return Advice(input, element_size).all(); }
+
+}  // namespace perimorph::fracture

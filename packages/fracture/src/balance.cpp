@@ -1,0 +1,74 @@
+#include "balance.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace perimorph::fracture {
+
+namespace {
+
+/// So many bonds cost as much as a classical element.
+constexpr double bonds_per_element = 20.;
+
+template <int dim>
+std::vector<double> own_costs(const Body<dim>& body) {
+  const auto model = body.model();
+  std::vector<double> costs(body.mesh().n_owned_elements, 1.);
+  for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
+    std::size_t n_bonds = 0;
+    for (const int p : model.bonds.pairs_of(e)) n_bonds += model.bonds.first_bond(p + 1) - model.bonds.first_bond(p);
+    costs[e] += 0.5 * static_cast<double>(n_bonds) / bonds_per_element;  // the other half is the other element's
+  }
+  return costs;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<dim>& problem) {
+  std::vector<double> costs(whole.n_elements(), 1.);
+  for (int e = 0; e < whole.n_elements(); ++e) {
+    const auto center = mesh::centroid(whole, e);
+    const bool is_in_zone = std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& seed) {
+      return seed.alpha(center, morphing::Profile::linear) > 0.;
+    });
+    if (!is_in_zone) continue;
+    double radius = 0.;  // of the element
+    for (int k = 0; k < whole.n_corners(e); ++k) {
+      radius = std::max(radius, (whole.coordinates[whole.corners_of(e)[k]] - center).norm());
+    }
+    const double n_points = whole.n_corners(e);  // as many as corners, about
+    // A square or cube with this radius: the horizon's ball holds 1.6 or 2.7 times (horizon / radius)^dim of them.
+    const double n_partners = (dim == 2 ? 1.6 : 2.7) * std::pow(problem.micromodulus.horizon / radius, dim);
+    costs[e] += 0.5 * n_points * n_points * n_partners / bonds_per_element;
+  }
+  return costs;
+}
+
+template <int dim>
+std::vector<double> element_costs(const base::Comm& comm, const Body<dim>& body) {
+  const auto first = body.mesh().element_ids.begin();
+  const auto ids = base::gather_on_root(comm, std::vector<base::GlobalId>(first, first + body.mesh().n_owned_elements));
+  const auto costs = base::gather_on_root(comm, own_costs(body));
+  std::vector<double> by_id(costs.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) by_id[ids[i]] = costs[i];
+  return by_id;
+}
+
+template <int dim>
+Load measure_load(const base::Comm& comm, const Body<dim>& body) {
+  const auto costs = own_costs(body);
+  const double own = std::accumulate(costs.begin(), costs.end(), 0.);
+  const double total = base::sum(comm, own);
+  return {total, base::max(comm, own) * comm.getSize() / total};
+}
+
+template std::vector<double> expected_costs<2>(const mesh::Mesh<2>&, const Problem<2>&);
+template std::vector<double> element_costs<2>(const base::Comm&, const Body<2>&);
+template Load measure_load<2>(const base::Comm&, const Body<2>&);
+
+template std::vector<double> expected_costs<3>(const mesh::Mesh<3>&, const Problem<3>&);
+template std::vector<double> element_costs<3>(const base::Comm&, const Body<3>&);
+template Load measure_load<3>(const base::Comm&, const Body<3>&);
+
+}  // namespace perimorph::fracture

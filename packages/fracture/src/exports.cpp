@@ -1,0 +1,232 @@
+#include "perimorph/fracture/exports.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "columns.hpp"
+#include "perimorph/base/errors.hpp"
+#include "perimorph/io/bond_file.hpp"
+
+namespace perimorph::fracture {
+
+using base::GlobalId;
+using base::Point;
+using Texts = std::vector<std::string>;
+
+namespace {
+
+template <int dim>
+Texts probe_columns() {
+  Texts columns = {"increment", "load_factor", "probe", "place"};
+  for (int c = 0; c < dim; ++c) columns.emplace_back(axis_names[c]);
+  for (int c = 0; c < dim; ++c) columns.push_back(std::string("displacement_") + axis_names[c]);
+  columns.insert(columns.end(), stress_names<dim>().begin(), stress_names<dim>().end());
+  return columns;
+}
+
+template <int dim>
+Texts crack_columns() {
+  const std::string size = dim == 2 ? "length" : "area";
+  return {"increment", "load_factor", "open_sides", "side_" + size, "crack_" + size};
+}
+
+template <int dim>
+Texts path_columns() {
+  Texts columns = {"increment", "element_1", "element_2"};
+  for (int k = 1; k <= bonds::OpenSide<dim>::max_corners; ++k) {
+    for (int c = 0; c < dim; ++c) columns.push_back(fmt::format("{}_{}", axis_names[c], k));
+  }
+  return columns;
+}
+
+std::string bonds_file(const std::string& folder, int increment) {
+  return (std::filesystem::path(folder) / fmt::format("bonds-{:06d}.vtp", increment)).string();
+}
+
+/// Those of an earlier run that went further, so that all in the folder belong to one run.
+void remove_bonds_after(const std::string& folder, int increment) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    int found = 0;
+    const std::string name = entry.path().filename();
+    const bool is_bonds = std::sscanf(name.c_str(), "bonds-%d.vtp", &found) == 1 &&
+                          entry.path() == std::filesystem::path(bonds_file(folder, found));
+    if (is_bonds && found > increment) std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
+/// A bond and a point as they travel to rank 0.
+struct BondRecord {
+  GlobalId first, second;
+  double stretch;
+  signed char broken;
+};
+template <int dim>
+struct PointRecord {
+  GlobalId id;
+  std::array<double, dim> position, displacement;
+};
+
+/// The bonds whose first element this rank owns.
+template <int dim>
+std::vector<BondRecord> own_bonds(const Body<dim>& body) {
+  const auto model = body.model();
+  const auto& u = body.displacement_at_points();
+  std::vector<BondRecord> records;
+  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
+    const auto [first, second] = model.bonds.pair(p);
+    if (first >= body.mesh().n_owned_elements) continue;
+    for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
+      const int i = model.bonds.first_end(b), j = model.bonds.second_end(b);
+      const int x = model.points.first(first) + i, y = model.points.first(second) + j;
+      const Point<dim> xi = model.points.position(y) - model.points.position(x);
+      records.push_back({model.points.global_id(first, i), model.points.global_id(second, j),
+                         (xi + u[y] - u[x]).norm() / xi.norm() - 1., static_cast<signed char>(model.bonds.broken(b))});
+    }
+  }
+  return records;
+}
+
+template <int dim>
+std::vector<PointRecord<dim>> own_bonded_points(const Body<dim>& body) {
+  const auto model = body.model();
+  std::vector<PointRecord<dim>> records;
+  for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
+    if (model.bonds.pairs_of(e).empty()) continue;
+    for (int q = 0; q < model.points.count(e); ++q) {
+      const int point = model.points.first(e) + q;
+      PointRecord<dim> record{model.points.global_id(e, q), {}, {}};
+      Eigen::Map<Point<dim>>(record.position.data()) = model.points.position(point);
+      Eigen::Map<Point<dim>>(record.displacement.data()) = body.displacement_at_points()[point];
+      records.push_back(record);
+    }
+  }
+  return records;
+}
+
+template <int dim>
+io::BondModel<dim> model_of(std::vector<PointRecord<dim>> points, std::vector<BondRecord> bonds) {
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  std::sort(bonds.begin(), bonds.end(),
+            [](const auto& a, const auto& b) { return std::tie(a.first, a.second) < std::tie(b.first, b.second); });
+  io::BondModel<dim> model;
+  for (const auto& point : points) {
+    model.point_ids.push_back(point.id);
+    model.positions.emplace_back(Eigen::Map<const Point<dim>>(point.position.data()));
+    model.displacements.emplace_back(Eigen::Map<const Point<dim>>(point.displacement.data()));
+  }
+  const auto place = [&](GlobalId id) {
+    return std::lower_bound(model.point_ids.begin(), model.point_ids.end(), id) - model.point_ids.begin();
+  };
+  for (const auto& bond : bonds) {
+    model.ends.insert(model.ends.end(), {place(bond.first), place(bond.second)});
+    model.stretch.push_back(bond.stretch);
+    model.broken.push_back(bond.broken);
+  }
+  return model;
+}
+
+}  // namespace
+
+template <int dim>
+Exports<dim>::Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+                      const std::string& folder, int increment)
+    : comm_(comm),
+      folder_(folder),
+      probes_(*comm, mesh, input.probes),
+      horizon_(input.horizon),
+      bond_increments_(input.bond_increments),
+      records_crack_(input.records_crack) {
+  base::on_all_ranks(*comm, [&] {
+    if (comm_->getRank() == 0) open_tables(increment);
+  });
+}
+
+template <int dim>
+void Exports<dim>::open_tables(int increment) {
+  using Rows = io::History::Rows;
+  const auto table = [&](const char* name, const Texts& columns, Rows rows = Rows::in_each_increment) {
+    const std::string file = (std::filesystem::path(folder_) / name).string();
+    return std::make_unique<io::History>(increment > 0 ? io::History::resume(file, columns, increment, rows)
+                                                       : io::History(file, columns));
+  };
+  if (!probes_.places().empty()) probe_table_ = table("probes.csv", probe_columns<dim>());
+  if (records_crack_) {
+    crack_table_ = table("crack.csv", crack_columns<dim>());
+    path_table_ = table("crack_path.csv", path_columns<dim>(), Rows::in_some);
+  }
+  remove_bonds_after(folder_, increment);
+}
+
+template <int dim>
+void Exports<dim>::take_over(const Body<dim>& body) {
+  if (!records_crack_) return;
+  const auto open = base::gather_on_root(*comm_, bonds::open_sides(body.mesh(), body.model().bonds));
+  known_sides_.insert(open.begin(), open.end());
+}
+
+template <int dim>
+void Exports<dim>::accept(int increment, const Body<dim>& body) {
+  if (!probes_.places().empty()) record_probes(increment, body);
+  if (records_crack_) record_crack(increment, body);
+  if (std::find(bond_increments_.begin(), bond_increments_.end(), increment) != bond_increments_.end()) {
+    write_bonds(increment, body);
+  }
+}
+
+template <int dim>
+void Exports<dim>::record_probes(int increment, const Body<dim>& body) {
+  const auto samples = probes_.measure(*comm_, body);
+  base::on_all_ranks(*comm_, [&] {
+    for (const auto& sample : samples) {
+      const auto& place = probes_.places()[sample.place];
+      Texts row = {std::to_string(increment), io::History::number(body.load_factor()), place.probe,
+                   std::to_string(place.number)};
+      const auto append = [&](const auto& values) {
+        std::transform(values.begin(), values.end(), std::back_inserter(row), io::History::number);
+      };
+      append(place.position);
+      append(sample.displacement);
+      append(sample.stress);
+      probe_table_->write_texts(row);
+    }
+  });
+}
+
+template <int dim>
+void Exports<dim>::record_crack(int increment, const Body<dim>& body) {
+  auto open = base::gather_on_root(*comm_, bonds::open_sides(body.mesh(), body.model().bonds));
+  std::sort(open.begin(), open.end());
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() != 0) return;
+    double sides_size = 0.;
+    for (const auto& side : open) {
+      sides_size += bonds::size(side);
+      if (!known_sides_.insert(side).second) continue;
+      std::vector<double> row = {static_cast<double>(increment), static_cast<double>(side.first + 1),
+                                 static_cast<double>(side.second + 1)};
+      for (int k = 0; k < bonds::OpenSide<dim>::max_corners; ++k) {  // of a triangle the last one twice
+        const auto& point = side.points[std::min(k, side.n_corners - 1)];
+        row.insert(row.end(), point.begin(), point.end());
+      }
+      path_table_->write(row);
+    }
+    crack_table_->write({static_cast<double>(increment), body.load_factor(), static_cast<double>(open.size()),
+                         sides_size, bonds::crack_size(open, horizon_)});
+  });
+}
+
+template <int dim>
+void Exports<dim>::write_bonds(int increment, const Body<dim>& body) const {
+  const auto points = base::gather_on_root(*comm_, own_bonded_points(body));
+  const auto bonds = base::gather_on_root(*comm_, own_bonds(body));
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) io::write_bonds(bonds_file(folder_, increment), model_of<dim>(points, bonds));
+  });
+}
+
+template class Exports<2>;
+template class Exports<3>;
+
+}  // namespace perimorph::fracture

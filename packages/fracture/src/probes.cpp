@@ -1,0 +1,101 @@
+#include "perimorph/fracture/probes.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "perimorph/operators/fields.hpp"
+
+namespace perimorph::fracture {
+
+using base::GlobalId;
+using base::Point;
+
+namespace {
+
+/// Stress inside an element from that at its material points, which are as many as its corners.
+template <int dim>
+base::Voigt<dim> interpolated_stress(const Body<dim>& body, const elements::Location& at) {
+  const auto model = body.model();
+  const auto stress =
+      operators::stress_at_points(model, at.element, body.displacement(), body.displacement_at_points());
+  const auto n = static_cast<int>(stress.size());
+  Eigen::MatrixXd shapes(n, n), values(n, base::n_voigt<dim>);
+  for (int q = 0; q < n; ++q) {
+    shapes.row(q) = model.points.shape(at.element, q);
+    values.row(q) = stress[q];
+  }
+  return (at.shape * shapes.partialPivLu().solve(values)).transpose();
+}
+
+template <int dim>
+Point<dim> interpolated_displacement(const Body<dim>& body, const elements::Location& at) {
+  const auto model = body.model();
+  Point<dim> sum = Point<dim>::Zero();
+  for (int k = 0; k < body.mesh().n_corners(at.element); ++k) {
+    const int node = model.dofs.nodes_of(at.element)[k];
+    sum += at.shape[k] * Eigen::Map<const Point<dim>>(body.displacement() + node * dim);
+  }
+  return sum;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<Point<dim>> places_of(const Probe& probe) {
+  const auto corner = [&](std::size_t k) { return Point<dim>(Eigen::Map<const Point<dim>>(&probe.points[k * dim])); };
+  std::vector<Point<dim>> places;
+  for (std::size_t k = 0; (k + 2) * dim <= probe.points.size(); ++k) {
+    for (int i = 0; i < probe.divisions; ++i) {
+      places.push_back(corner(k) + (corner(k + 1) - corner(k)) * i / probe.divisions);
+    }
+  }
+  places.push_back(corner(probe.points.size() / dim - 1));
+  return places;
+}
+
+template <int dim>
+Probes<dim>::Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<Probe>& probes) {
+  for (const auto& probe : probes) {
+    int number = 0;
+    for (const auto& position : places_of<dim>(probe)) places_.push_back({probe.name, ++number, position});
+  }
+  struct Claim {
+    int place;
+    GlobalId element;
+  };
+  const elements::Locator<dim> locator(mesh);
+  std::vector<Claim> claims;
+  for (int i = 0; i < static_cast<int>(places_.size()); ++i) {
+    const auto found = locator.find(places_[i].position);
+    if (!found) continue;
+    own_.push_back({i, *found});
+    claims.push_back({i, mesh.element_ids[found->element]});
+  }
+  std::vector<GlobalId> lowest(places_.size(), mesh.n_global_elements);
+  for (const auto& claim : base::gather_on_all(comm, claims)) {
+    lowest[claim.place] = std::min(lowest[claim.place], claim.element);
+  }
+  const auto is_others = [&](const Located& l) { return mesh.element_ids[l.location.element] != lowest[l.place]; };
+  own_.erase(std::remove_if(own_.begin(), own_.end(), is_others), own_.end());
+}
+
+template <int dim>
+std::vector<typename Probes<dim>::Sample> Probes<dim>::measure(const base::Comm& comm, const Body<dim>& body) const {
+  std::vector<Sample> own;
+  for (const auto& [place, at] : own_) {
+    Sample sample{place, {}, {}};
+    Eigen::Map<Point<dim>>(sample.displacement.data()) = interpolated_displacement(body, at);
+    Eigen::Map<base::Voigt<dim>>(sample.stress.data()) = interpolated_stress(body, at);
+    own.push_back(sample);
+  }
+  auto all = base::gather_on_root(comm, own);
+  std::sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.place < b.place; });
+  return all;
+}
+
+template std::vector<Point<2>> places_of<2>(const Probe&);
+template std::vector<Point<3>> places_of<3>(const Probe&);
+template class Probes<2>;
+template class Probes<3>;
+
+}  // namespace perimorph::fracture

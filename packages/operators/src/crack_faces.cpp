@@ -1,0 +1,121 @@
+#include "perimorph/operators/crack_faces.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace perimorph::operators {
+
+using base::Point;
+
+namespace {
+
+/// What both sides have in common: the places of their corners, ascending. Nodes on pre-cracks are doubled to the bit.
+template <int dim>
+using Places = std::vector<std::array<double, dim>>;
+
+template <int dim>
+Places<dim> places_of(const mesh::Mesh<dim>& mesh, const mesh::Side& side) {
+  Places<dim> places;
+  for (const auto& x : mesh::corner_points(mesh, side)) {
+    std::array<double, dim> place;
+    std::copy(x.begin(), x.end(), place.begin());
+    places.push_back(place);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+/// All sides of elements that touch a discontinuous one, and the boundary, where pre-cracks are.
+template <int dim>
+std::vector<mesh::Side> sides_that_may_part(const mesh::Mesh<dim>& mesh, const std::vector<char>& discontinuous) {
+  std::vector<char> touched(mesh.n_nodes(), 0);
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    if (!discontinuous[e]) continue;
+    for (int k = 0; k < mesh.n_corners(e); ++k) touched[mesh.corners_of(e)[k]] = 1;
+  }
+  std::vector<char> chosen(mesh.n_elements(), 0);
+  std::vector<mesh::Side> sides;
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    const int* corners = mesh.corners_of(e);
+    chosen[e] = std::any_of(corners, corners + mesh.n_corners(e), [&](int node) { return touched[node] != 0; });
+    if (!chosen[e]) continue;
+    for (int s = 0; s < static_cast<int>(mesh::sides(mesh.types[e]).size()); ++s) sides.push_back({e, s});
+  }
+  std::copy_if(mesh.boundary.begin(), mesh.boundary.end(), std::back_inserter(sides),
+               [&](const mesh::Side& side) { return !chosen[side.element]; });
+  return sides;
+}
+
+Point<2> outward_normal(const std::vector<Point<2>>& corners) {
+  const Point<2> along = corners[1] - corners[0];
+  return Point<2>(along[1], -along[0]).normalized();
+}
+
+Point<3> outward_normal(const std::vector<Point<3>>& corners) {
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+}
+
+template <int dim>
+bool are_joined(const bonds::BondFamilies<dim>& bonds, int e, int f) {
+  for (const int p : bonds.pairs_of(e)) {
+    const auto [first, second] = bonds.pair(p);
+    if ((first == e ? second : first) != f) continue;
+    for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
+      if (!bonds.broken(b)) return true;
+    }
+  }
+  return false;
+}
+
+/// Displacement of an element's corner at a place.
+template <int dim>
+Point<dim> displacement_at(const CoupledModel<dim>& model, const double* u, int element, const Point<dim>& place) {
+  const int* reference = model.mesh.corners_of(element);
+  int corner = 0;
+  while (model.mesh.coordinates[reference[corner]] != place) ++corner;
+  return Eigen::Map<const Point<dim>>(u + model.dofs.nodes_of(element)[corner] * dim);
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>& mesh, const std::vector<char>& discontinuous) {
+  std::map<Places<dim>, mesh::Side> waiting;
+  std::vector<FacingSides> facing;
+  for (const mesh::Side& side : sides_that_may_part(mesh, discontinuous)) {
+    const auto [other, is_first] = waiting.emplace(places_of(mesh, side), side);
+    if (is_first) continue;
+    FacingSides both{other->second, side};
+    const auto id = [&](const mesh::Side& one) { return mesh.element_ids[one.element]; };
+    if (id(both.second) < id(both.first)) std::swap(both.first, both.second);
+    if (both.first.element < mesh.n_owned_elements) facing.push_back(both);
+  }
+  return facing;
+}
+
+template <int dim>
+Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing, const double* u) {
+  Overlap<dim> largest;
+  for (const auto& [first, second] : facing) {
+    if (are_joined(model.bonds, first.element, second.element)) continue;
+    const auto corners = mesh::corner_points(model.mesh, first);
+    const Point<dim> normal = outward_normal(corners);
+    for (const Point<dim>& x : corners) {
+      const Point<dim> jump =
+          displacement_at(model, u, second.element, x) - displacement_at(model, u, first.element, x);
+      if (-jump.dot(normal) > largest.depth) largest = {-jump.dot(normal), x};
+    }
+  }
+  return largest;
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                  \
+  template std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>&, const std::vector<char>&); \
+  template Overlap<dim> largest_overlap(const CoupledModel<dim>&, const std::vector<FacingSides>&, const double*);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
+
+}  // namespace perimorph::operators

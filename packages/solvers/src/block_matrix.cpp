@@ -1,0 +1,61 @@
+#include "block_matrix.hpp"
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <algorithm>
+
+namespace perimorph::solvers {
+
+template <int rows, int cols>
+BlockMatrix<rows, cols>::BlockMatrix(const Matrix& matrix) : ghosts_(matrix.getDomainMap(), *matrix.getColMap()) {
+  const auto local = matrix.getLocalMatrixHost();
+  const int n_rows = static_cast<int>(local.numRows()) / rows;
+  std::vector<int> block_of(matrix.getColMap()->getNodeNumElements()), component_of(block_of.size());
+  for (std::size_t i = 0; i < block_of.size(); ++i) {
+    const base::GlobalId number = matrix.getColMap()->getGlobalElement(static_cast<int>(i));
+    block_of[i] = ghosts_.local_block(number);
+    component_of[i] = ghosts_.component(number);
+  }
+  std::vector<int> place(ghosts_.n_all(), -1);  // within the row, of the blocks that are there
+  first_ = {0};
+  for (int row = 0; row < n_rows; ++row) {
+    const auto begin = static_cast<std::ptrdiff_t>(first_.back());
+    for (auto k = local.graph.row_map(row * rows); k < local.graph.row_map((row + 1) * rows); ++k) {
+      const int block = block_of[local.graph.entries(k)];
+      if (place[block] == row) continue;
+      place[block] = row;
+      columns_.push_back(block);
+    }
+    std::sort(columns_.begin() + begin, columns_.end());
+    first_.push_back(columns_.size());
+  }
+  values_.assign(columns_.size() * n_groups * n_lanes, 0.f);
+  for (int row = 0; row < n_rows; ++row) {
+    for (std::size_t b = first_[row]; b < first_[row + 1]; ++b) place[columns_[b]] = static_cast<int>(b - first_[row]);
+    for (int r = 0; r < rows; ++r) {
+      for (auto k = local.graph.row_map(row * rows + r); k < local.graph.row_map(row * rows + r + 1); ++k) {
+        const int column = local.graph.entries(k);
+        values_[entry(first_[row] + place[block_of[column]], r, component_of[column])] =
+            static_cast<float>(local.values(k));
+      }
+    }
+  }
+}
+
+template <int rows, int cols>
+Eigen::Matrix<float, rows, cols> BlockMatrix<rows, cols>::block(std::size_t block) const {
+  Eigen::Matrix<float, rows, cols> result;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < cols; ++c) result(r, c) = values_[entry(block, r, c)];
+  }
+  return result;
+}
+
+template class BlockMatrix<2, 2>;
+template class BlockMatrix<2, 3>;
+template class BlockMatrix<3, 2>;
+template class BlockMatrix<3, 3>;
+template class BlockMatrix<3, 6>;
+template class BlockMatrix<6, 3>;
+template class BlockMatrix<6, 6>;
+
+}  // namespace perimorph::solvers

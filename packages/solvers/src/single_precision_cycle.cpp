@@ -1,0 +1,207 @@
+#include "single_precision_cycle.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <memory>
+
+#include "block_matrix.hpp"
+
+namespace perimorph::solvers {
+
+namespace {
+
+using Values = std::vector<float>;
+
+template <int size>
+using Block = Eigen::Matrix<float, size, size>;
+template <int size>
+using BlockVector = Eigen::Matrix<float, size, 1>;
+
+template <int size>
+Eigen::Map<BlockVector<size>> at(Values& x, int row) {
+  return Eigen::Map<BlockVector<size>>(x.data() + static_cast<std::ptrdiff_t>(row) * size);
+}
+
+/// Inverse of a symmetric, positive semi-definite block, but zero for what is below `smallest`.
+template <int size>
+Block<size> inverse(const Block<size>& block, double smallest) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, size, size>> eigen(block.template cast<double>());
+  const Eigen::Matrix<double, size, 1> inverted =
+      eigen.eigenvalues().unaryExpr([=](double value) { return value > smallest ? 1. / value : 0.; });
+  return (eigen.eigenvectors() * inverted.asDiagonal() * eigen.eigenvectors().transpose()).template cast<float>();
+}
+
+/// Gauss-Seidel on the matrix of one level.
+template <int size>
+class Smoother {
+ public:
+  explicit Smoother(const Matrix& matrix) : matrix_(matrix) {
+    std::vector<Block<size>> blocks;
+    float largest = 0.f;
+    for (int row = 0; row < n_rows(); ++row) {
+      std::size_t diagonal = matrix_.first(row);
+      while (matrix_.column(diagonal) != row) ++diagonal;
+      BlockVector<size> neglected = BlockVector<size>::Zero();
+      for (auto b = diagonal + 1; b < matrix_.end(row); ++b) {
+        if (matrix_.column(b) >= n_rows()) neglected += 0.5f * matrix_.block(b).cwiseAbs().rowwise().sum();
+      }
+      Block<size> block = matrix_.block(diagonal);
+      block.diagonal() += neglected;
+      diagonal_.push_back(diagonal);
+      neglected_.push_back(neglected);
+      blocks.push_back(block);
+      largest = std::max(largest, block.diagonal().maxCoeff());
+    }
+    // A piece that floats has no stiffness but its anchors, and in single precision no forces but rounding errors.
+    for (const auto& block : blocks) inverse_.push_back(inverse<size>(block, 1e-5 * largest));
+  }
+
+  int n_rows() const { return matrix_.n_rows(); }
+  Values make_vector() const {
+    return Values(static_cast<std::size_t>(matrix_.ghosts().n_all()) * size + BlockMatrix<size, size>::padding, 0.f);
+  }
+  void update_ghosts(Values& x) const { matrix_.ghosts().update(x); }
+
+  /// x after a forward sweep from zero, copies included.
+  void start(Values& b, Values& x) const {
+    for (int row = 0; row < n_rows(); ++row) {
+      at<size>(x, row) =
+          inverse_[row] * (at<size>(b, row) - matrix_.product(matrix_.first(row), diagonal_[row], x.data()));
+    }
+    update_ghosts(x);
+  }
+
+  /// b - A x just after start(): what the sweep has already used up cancels.
+  void residual_after_start(Values& x, Values& residual) const {
+    for (int row = 0; row < n_rows(); ++row) {
+      at<size>(residual, row) = neglected_[row].cwiseProduct(at<size>(x, row)) -
+                                matrix_.product(diagonal_[row] + 1, matrix_.end(row), x.data());
+    }
+  }
+
+  /// A sweep from x, whose copies are up to date.
+  void sweep_forward(Values& b, Values& x) const {
+    for (int row = 0; row < n_rows(); ++row) relax(row, b, x);
+  }
+  void sweep_backward(Values& b, Values& x) const {
+    for (int row = n_rows() - 1; row >= 0; --row) relax(row, b, x);
+  }
+
+ private:
+  BlockMatrix<size, size> matrix_;
+  std::vector<std::size_t> diagonal_;
+  std::vector<BlockVector<size>> neglected_;
+  std::vector<Block<size>> inverse_;  ///< of the diagonal and what is neglected
+
+  void relax(int row, Values& b, Values& x) const {
+    at<size>(x, row) += inverse_[row] * (at<size>(b, row) - matrix_.product(row, x.data()));
+  }
+};
+
+template <int rows, int cols>
+class Transfer {
+ public:
+  explicit Transfer(const Matrix& matrix)
+      : matrix_(matrix), gathered_(matrix_.ghosts().n_all() * cols + BlockMatrix<rows, cols>::padding) {}
+
+  /// The operator times x, of which only the owned part counts.
+  template <class Assign>
+  void apply(const Values& x, Assign assign) const {
+    std::copy_n(x.begin(), matrix_.ghosts().n_owned() * cols, gathered_.begin());
+    matrix_.ghosts().update(gathered_);
+    for (int row = 0; row < matrix_.n_rows(); ++row) assign(row, matrix_.product(row, gathered_.data()));
+  }
+
+ private:
+  BlockMatrix<rows, cols> matrix_;
+  mutable Values gathered_;
+};
+
+/// A level and all below it.
+template <int size, int coarse>
+class Level {
+ public:
+  explicit Level(const CycleLevel* levels, std::size_t n_levels)
+      : smoother_(*levels->matrix), b_(smoother_.n_rows() * size), x_(smoother_.make_vector()) {
+    if (n_levels == 1) return;
+    restriction_ = std::make_unique<Transfer<coarse, size>>(*levels->restriction);
+    prolongation_ = std::make_unique<Transfer<size, coarse>>(*levels->prolongation);
+    residual_.resize(b_.size());
+    below_ = std::make_unique<Level<coarse, coarse>>(levels + 1, n_levels - 1);
+  }
+
+  Values& right_hand_side() { return b_; }
+  const Values& solution() const { return x_; }
+
+  void solve() {
+    smoother_.start(b_, x_);
+    if (below_ == nullptr) return solve_coarsest();
+    smoother_.residual_after_start(x_, residual_);
+    restriction_->apply(residual_,
+                        [this](int row, const auto& sum) { at<coarse>(below_->right_hand_side(), row) = sum; });
+    below_->solve();
+    prolongation_->apply(below_->solution(), [this](int row, const auto& sum) { at<size>(x_, row) += sum; });
+    smoother_.update_ghosts(x_);
+    smoother_.sweep_backward(b_, x_);
+  }
+
+ private:
+  Smoother<size> smoother_;
+  std::unique_ptr<Transfer<coarse, size>> restriction_;
+  std::unique_ptr<Transfer<size, coarse>> prolongation_;
+  std::unique_ptr<Level<coarse, coarse>> below_;
+  Values b_, x_, residual_;
+
+  void solve_coarsest() {
+    constexpr int n_symmetric_sweeps = 10;
+    for (int sweep = 0; sweep < n_symmetric_sweeps; ++sweep) {
+      if (sweep > 0) {
+        smoother_.sweep_forward(b_, x_);
+        smoother_.update_ghosts(x_);
+      }
+      smoother_.sweep_backward(b_, x_);
+      smoother_.update_ghosts(x_);
+    }
+  }
+};
+
+template <int dim>
+class SinglePrecisionCycle : public Operator {
+ public:
+  explicit SinglePrecisionCycle(const std::vector<CycleLevel>& levels)
+      : map_(levels.front().matrix->getRowMap()), finest_(levels.data(), levels.size()) {}
+
+  Teuchos::RCP<const Tpetra::Map<>> getDomainMap() const override { return map_; }
+  Teuchos::RCP<const Tpetra::Map<>> getRangeMap() const override { return map_; }
+
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, double alpha, double beta) const override {
+    const auto input = x.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto output = y.getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t column = 0; column < input.extent(1); ++column) {
+      for (std::size_t i = 0; i < input.extent(0); ++i) {
+        finest_.right_hand_side()[i] = static_cast<float>(input(i, column));
+      }
+      finest_.solve();
+      for (std::size_t i = 0; i < input.extent(0); ++i) {
+        output(i, column) = (beta == 0. ? 0. : beta * output(i, column)) + alpha * finest_.solution()[i];
+      }
+    }
+  }
+
+ private:
+  Teuchos::RCP<const Tpetra::Map<>> map_;
+  mutable Level<dim, dim*(dim + 1) / 2> finest_;
+};
+
+}  // namespace
+
+template <int dim>
+Teuchos::RCP<Operator> make_single_precision_cycle(const std::vector<CycleLevel>& levels) {
+  return Teuchos::rcp(new SinglePrecisionCycle<dim>(levels));
+}
+
+template Teuchos::RCP<Operator> make_single_precision_cycle<2>(const std::vector<CycleLevel>&);
+template Teuchos::RCP<Operator> make_single_precision_cycle<3>(const std::vector<CycleLevel>&);
+
+}  // namespace perimorph::solvers

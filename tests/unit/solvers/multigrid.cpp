@@ -1,0 +1,101 @@
+// The V-cycle as an operator.
+
+#include "perimorph/solvers/multigrid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/coupled_body.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using solvers::MultiVector;
+
+/// 40 x 30 squares with a zone of discontinuous elements, held at the left: three levels.
+Setup hybrid() {
+  Setup setup{{40, 30, 40., 30.}, 3., 0.2, {}};
+  setup.zones = {morphing::Zone<2>::ball({20., 15.}, 6., 10.)};
+  setup.whole_zone_discontinuous = true;
+  setup.prescribed = {{"x", "left", 0, {0., 0.}}, {"y", "left", 1, {0., 0.}}};
+  return setup;
+}
+
+class Multigrid : public testing::Test {
+ protected:
+  CoupledBody body{hybrid()};
+  Teuchos::RCP<solvers::Matrix> matrix = body.stiffness->matrix();
+
+  solvers::Multigrid make() const {
+    std::vector<Point2> coordinates;
+    for (int n = 0; n < body.dofs->n_owned_nodes(); ++n)
+      coordinates.push_back(body.mesh.coordinates[body.dofs->reference_node(n)]);
+    return {matrix, solvers::rigid_body_modes<2>(*matrix, coordinates), {}, solvers::Multigrid::Smoothing::fast};
+  }
+
+  /// The same on any number of ranks.
+  MultiVector wave(double frequency) const {
+    MultiVector v(matrix->getRowMap(), 1);
+    const auto values = v.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (std::size_t i = 0; i < values.extent(0); ++i) {
+      const auto& x = body.mesh.coordinates[body.dofs->reference_node(static_cast<int>(i / 2))];
+      values(i, 0) = std::sin(frequency * x[0] + 0.3 * static_cast<double>(i % 2)) * std::cos(0.7 * frequency * x[1]);
+    }
+    return v;
+  }
+
+  static MultiVector times(const solvers::Operator& linear_operator, const MultiVector& v) {
+    MultiVector product(v.getMap(), 1);
+    linear_operator.apply(v, product);
+    return product;
+  }
+  static double dot(const MultiVector& one, const MultiVector& other) {
+    Teuchos::Array<double> result(1);
+    one.dot(other, result());
+    return result[0];
+  }
+};
+
+TEST_F(Multigrid, IsSymmetricAndPositiveUpToSinglePrecision) {
+  const auto multigrid = make();
+  const auto& cycle = *multigrid.apply_inverse();
+  for (const double one : {0.05, 0.4, 2.9}) {
+    const auto x = wave(one), cycle_x = times(cycle, x);
+    EXPECT_GT(dot(x, cycle_x), 0.);
+    for (const double other : {0.1, 1.3}) {
+      const auto y = wave(other), cycle_y = times(cycle, y);
+      const double scale = std::sqrt(dot(x, cycle_x) * dot(y, cycle_y));
+      EXPECT_NEAR(dot(x, cycle_y), dot(cycle_x, y), 1e-5 * scale) << one << " " << other;
+    }
+  }
+}
+
+TEST_F(Multigrid, ReducesSmoothAndRoughErrorsAlike) {
+  const auto multigrid = make();
+  for (const double frequency : {0.05, 0.4, 2.9}) {
+    auto error = wave(frequency);
+    const double before = dot(error, times(*matrix, error));
+    const auto correction = times(*multigrid.apply_inverse(), times(*matrix, error));
+    error.update(-1., correction, 1.);
+    EXPECT_LT(dot(error, times(*matrix, error)), 0.5 * before) << "energy of the error, frequency " << frequency;
+  }
+}
+
+TEST_F(Multigrid, FollowsNewValuesWhenRefreshed) {
+  auto multigrid = make();
+  const auto x = wave(0.4);
+  const auto before = times(*multigrid.apply_inverse(), x);
+
+  matrix->resumeFill();
+  matrix->scale(4.);
+  matrix->fillComplete();
+  multigrid.refresh();
+
+  auto after = times(*multigrid.apply_inverse(), x);
+  after.update(-1., before, 4.);
+  EXPECT_LT(std::sqrt(dot(after, after)), 1e-4 * std::sqrt(dot(before, before)));
+}
+
+}  // namespace
+}  // namespace perimorph::tests

@@ -1,0 +1,72 @@
+"""What the Python tools share that make cases of their own and measure how they run."""
+
+import collections
+import csv
+import os
+import subprocess
+import sys
+import time
+
+from messages import fail
+from runs import Log
+
+TOOLS = os.path.dirname(os.path.realpath(__file__))
+
+
+def xml(name, value):
+    """A parameter, or a list of them."""
+    if isinstance(value, dict):
+        return f'<ParameterList name="{name}">\n' + "".join(xml(*item) for item in value.items()) + "</ParameterList>\n"
+    kind = {float: "double", int: "int"}.get(type(value), "string")
+    if isinstance(value, str) and value.startswith("{"):
+        kind = "Array(string)" if name == "Reactions" else "Array(double)"
+    return f'<Parameter name="{name}" type="{kind}" value="{value}"/>\n'
+
+
+def write_case(file, case):
+    """A case file from nested dictionaries."""
+    with open(file, "w") as out:
+        out.write(xml(os.path.splitext(os.path.basename(file))[0], case))
+
+
+def make_mesh(stem, geometry, *options):
+    """<stem>.msh of gmsh's geometry, which is kept as <stem>.geo."""
+    with open(stem + ".geo", "w") as out:
+        out.write(geometry)
+    command = ["gmsh", "-2", "-v", "0", *options, stem + ".geo", "-o", stem + ".msh"]
+    if subprocess.run(command, check=False).returncode != 0:
+        fail(f"gmsh could not mesh {stem}.geo")
+
+
+class Run(collections.namedtuple("Run", "status wall processor memory history phases")):
+    """Exit status; wall seconds, and processor seconds of all ranks, start and output included; memory in MB of the rank
+    with most; the rows of history.csv; wall seconds of rank 0 by phase."""
+
+    @property
+    def solving(self):
+        """Wall seconds of set-up and solve: all but start, reading and writing."""
+        return self.phases["total"] - self.phases["read"] - self.phases["write"]
+
+
+def run(case, output, ranks=1, settings=(), ends=(0,)):
+    """Runs a case as tools/run would, without building.
+
+    settings: texts such as "Loading/Increments=1"; ends: the exit statuses that are no failure.
+    """
+    program = 'exec $1 "$root/build/drivers/perimorph" run "${@:2}" --quiet --no-progress'
+    command = ["bash", "-c", f'. "$0"; {program}', os.path.join(TOOLS, "environment"),
+               f"mpirun --quiet -n {ranks}" if ranks > 1 else "", case, "--output", output]
+    for setting in settings:
+        command += ["--set", setting]
+    begin = time.monotonic()
+    process = subprocess.Popen(command)
+    _, status, usage = os.wait4(process.pid, 0)
+    wall = time.monotonic() - begin
+    status = os.waitstatus_to_exitcode(status)
+    if status not in ends:
+        sys.exit(f"{case}: the run ended with status {status}")
+    with open(os.path.join(output, "history.csv"), newline="") as file:
+        history = list(csv.DictReader(file))
+    phases = {row[0]: float(row[1]) for row in Log(output).profile}
+    # Of children that have ended, the system keeps the memory of the largest.
+    return Run(status, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, history, phases)

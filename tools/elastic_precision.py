@@ -1,0 +1,139 @@
+"""The elastic half of tools/work-precision: error of the displacement around a hole."""
+
+import os
+import subprocess
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from fields import Displacement
+from messages import fail
+from precision_runs import E, NU, prescribed, run, write_case, write_mesh, write_rows
+
+HALF, RADIUS = 75.0, 15.0
+STRESS = 300.0
+
+GEOMETRY = """
+size = {size};
+half = {half};
+radius = {radius};
+Point(5) = {{0, 0, 0, size}};
+For i In {{0:3}}
+  Point(1 + i) = {{half * Sqrt(2) * Cos((i + 0.5) * Pi / 2), half * Sqrt(2) * Sin((i + 0.5) * Pi / 2), 0, size}};
+  Point(6 + i) = {{radius * Cos(i * Pi / 2), radius * Sin(i * Pi / 2), 0, size}};
+EndFor
+For i In {{0:3}}
+  Line(1 + i) = {{1 + i, 1 + (i + 1) % 4}};
+  Circle(5 + i) = {{6 + i, 5, 6 + (i + 1) % 4}};
+EndFor
+Curve Loop(1) = {{1:4}};
+Curve Loop(2) = {{5:8}};
+Plane Surface(1) = {{1, 2}};
+Recombine Surface{{1}};
+Mesh.Algorithm = 6;
+Mesh.RecombinationAlgorithm = 3;
+"""
+
+CIRCLE = {"Center": [0, 0], "Inner Radius": 30.0, "Outer Radius": 60.0}
+EVERYTHING = {"Shape": "Everything"}
+# name: seed, which elements are discontinuous, what becomes of E(x); colour
+VARIANTS = {
+    "finite elements": (None, "On Damage", "Dropped", "#4a4a4a"),
+    "hybrid, Whole Zone, Dropped (WHL19)": (CIRCLE, "Whole Zone", "Dropped", "#c8442c"),
+    "hybrid, Whole Zone, Kept": (CIRCLE, "Whole Zone", "Kept", "#c98a1b"),
+    "hybrid, On Damage, Dropped": (CIRCLE, "On Damage", "Dropped", "#8a5bb0"),
+    "hybrid, On Damage, Kept": (CIRCLE, "On Damage", "Kept", "#1f5fa8"),
+    "all peridynamic, Whole Zone, Dropped": (EVERYTHING, "Whole Zone", "Dropped", "#e08f80"),
+    "all peridynamic, On Damage, Kept": (EVERYTHING, "On Damage", "Kept", "#7fb0de"),
+}
+
+
+def kirsch(points):
+    """Displacement of an infinite plate with a hole under tension along x, plane stress."""
+    mu, k = E / (2 * (1 + NU)), (3 - NU) / (1 + NU)
+    r, t = np.hypot(*points.T) / RADIUS, np.arctan2(points[:, 1], points[:, 0])
+    x = r * (k + 1) * np.cos(t) + 2 / r * ((1 + k) * np.cos(t) + np.cos(3 * t)) - 2 / r**3 * np.cos(3 * t)
+    y = r * (k - 3) * np.sin(t) + 2 / r * ((1 - k) * np.sin(t) + np.sin(3 * t)) - 2 / r**3 * np.sin(3 * t)
+    return STRESS * RADIUS / (8 * mu) * np.column_stack([x, y])
+
+
+def plate(stem, size):
+    """Meshes the plate; returns the mean edge, the boundary's nodes and their positions."""
+    with open(stem + ".geo", "w") as out:
+        out.write(GEOMETRY.format(size=size, half=HALF, radius=RADIUS))
+    made = subprocess.run(["gmsh", "-2", "-v", "0", "-format", "msh22", stem + ".geo", "-o", stem + ".msh"])
+    if made.returncode != 0:
+        fail(f"gmsh could not mesh {stem}.geo")
+    with open(stem + ".msh") as file:
+        lines = file.read().split("\n")
+    first = lines.index("$Nodes") + 2
+    all_nodes = np.array([line.split()[1:3] for line in lines[first:lines.index("$EndNodes")]], dtype=float)
+    first = lines.index("$Elements") + 2
+    quads = np.array([line.split()[-4:] for line in lines[first:lines.index("$EndElements")] if line.split()[1] == "3"],
+                     dtype=int) - 1
+    used, quads = np.unique(quads, return_inverse=True)  # not the hole's centre
+    nodes, quads = all_nodes[used], quads.reshape(-1, 4)
+    boundary = np.flatnonzero(np.abs(nodes).max(axis=1) > HALF * (1 - 1e-9))
+    write_mesh(stem + ".msh", nodes, quads, boundary)
+    corners = nodes[quads]
+    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(), boundary, nodes[boundary]
+
+
+def case_of(mesh, dx, boundary, positions, variant):
+    seed, discontinuous, stiffness, _ = variant
+    morphing = {"Discontinuous Elements": discontinuous, "Stiffness in Peridynamic Zone": stiffness}
+    if seed is not None:
+        morphing["Seeds"] = {"zone": seed}
+    return {
+        "Title": "Plate with a hole, the exact displacement around it",
+        "Mesh": {"File": os.path.abspath(mesh)},
+        "Material": {"Young's Modulus": E, "Poisson's Ratio": NU, "Elastic Model": "Plane Stress"},
+        "Peridynamics": {"Horizon": 3 * float(dx), "Characteristic Length": 0.2 * float(dx)},
+        "Morphing": morphing,
+        "Boundary Conditions": {"Displacements": prescribed(boundary, kirsch(positions))},
+        "Loading": {"Increments": 1},
+        "Output": {"Reactions": "{n%d}" % boundary[0]},
+    }
+
+
+def errors(output):
+    """Largest over all nodes, for each component over its largest displacement."""
+    result = Displacement(output)
+    exact = kirsch(result.coordinates)
+    return np.abs(result.values - exact).max(axis=0) / np.abs(exact).max(axis=0)
+
+
+def measure(sizes, repeat, folder):
+    rows = []
+    for size in sorted(sizes, reverse=True):
+        stem = os.path.join(folder, f"plate-{size:g}")
+        dx, boundary, positions = plate(stem, size * 1.08)  # recombined quadrilaterals come out smaller than asked for
+        for name, variant in VARIANTS.items():
+            write_case(stem + ".xml", "kirsch", case_of(stem + ".msh", dx, boundary, positions, variant))
+            seconds, memory, history = min((run(stem + ".xml", stem) for _ in range(repeat)), key=lambda one: one[0])
+            error = errors(stem)
+            rows.append({"variant": name, "dx": f"{dx:.4g}", "unknowns": history[-1]["unknowns"],
+                         "seconds": f"{seconds:.3g}", "memory_mb": f"{memory:.0f}", "error_x": f"{error[0]:.3e}",
+                         "error_y": f"{error[1]:.3e}"})
+            print("  ".join(f"{key} {value}" for key, value in rows[-1].items()), flush=True)
+    write_rows(os.path.join(folder, "elastic.csv"), rows)
+    draw(rows, os.path.join(folder, "elastic.png"))
+
+
+def draw(rows, file):
+    figure, panels = plt.subplots(1, 3, sharey=True, figsize=(12, 5))
+    for panel, (column, label) in zip(panels, (("seconds", "processor time [s]"), ("unknowns", "unknowns"),
+                                               ("memory_mb", "memory [MB]"))):
+        for name, (_, _, _, colour) in VARIANTS.items():
+            mine = [row for row in rows if row["variant"] == name]
+            panel.loglog([float(row[column]) for row in mine],
+                         [100 * max(float(row["error_x"]), float(row["error_y"])) for row in mine],
+                         color=colour, marker="o", markersize=4, label=name)
+        panel.set_xlabel(label)
+        panel.grid(True, which="both", color="#e4e4e4", linewidth=0.6)
+        for side in ("top", "right"):
+            panel.spines[side].set_visible(False)
+    panels[0].set_ylabel("largest error of the displacement [%]")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="lower center", ncol=3, frameon=False)
+    figure.subplots_adjust(left=0.07, right=0.99, top=0.97, bottom=0.28, wspace=0.06)
+    figure.savefig(file, dpi=150)

@@ -1,0 +1,131 @@
+"""Whole runs of the program, for tools/benchmark: what their tables are made of."""
+
+import glob
+import os
+import sys
+import xml.etree.ElementTree as ElementTree
+
+from cases import make_mesh, run
+from squares import POLICIES, side_for, square
+from tables import print_table
+
+ROOT = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+DOUBLE_NOTCH = os.path.join(ROOT, "inputs", "double_edge_notched_plate", "double_edge_notched_plate.xml")
+STOPPED_AT_A_LIMIT = 3  # exit status
+
+
+def ratio(value, other):
+    return f"{value / other:.2f}"
+
+
+def measured(case, folder, ranks, **options):
+    """A run, announced as a table comes only when all are done."""
+    name = os.path.splitext(os.path.basename(case))[0]
+    print(f"{name} on {ranks} rank{'s' if ranks > 1 else ''}", file=sys.stderr)
+    return run(case, os.path.join(folder, f"{name}-{ranks}"), ranks, **options)
+
+
+def print_iterations(folder, scale):
+    """Growth of the iterations with the mesh."""
+    sizes = [scale * unknowns for unknowns in (50e3, 200e3, 800e3)]
+    rows = []
+    for model, policy in [("FE only", POLICIES[0])] + [(m, p) for m in ("hybrid", "all peridynamic") for p in POLICIES]:
+        runs = [measured(square(folder, side_for(n, model, policy), model, policy), folder, 2).history[-1] for n in sizes]
+        counts = [int(last["cg_iterations"]) for last in runs]
+        cells = [model if model == "FE only" else f"{model}, {policy}"]
+        for last, count, before in zip(runs, counts, [None] + counts):
+            growth = f" ({100 * (count / before - 1):+.0f} %)" if before else ""
+            cells.append(f"{last['unknowns']}: {count} in {last['linear_solves']}{growth}")
+        rows.append(cells)
+    print_table("Unknowns: CG iterations to 1e-6 in so many solves, 2 ranks. Target: at most 15 % more from one mesh to "
+                "the next.",
+                ["model", "first mesh", "second", "third"], rows)
+
+
+def print_zone(folder, scale):
+    """What a small peridynamic zone costs."""
+    n = side_for(1e6 * scale)
+    runs = {model: measured(square(folder, n, model), folder, 2) for model in ("FE only", "hybrid")}
+    finite = runs["FE only"]
+    rows = []
+    for model, one in runs.items():
+        phases = one.phases
+        rows.append([model, one.history[-1]["cg_iterations"],
+                     *(f"{phases[p]:.2f}" for p in ("search", "assemble", "preconditioner", "CG")),
+                     f"{one.solving:.2f}", ratio(one.solving, finite.solving), ratio(one.wall, finite.wall),
+                     f"{one.memory:.0f}"])
+    print_table(f"{finite.history[-1]['unknowns']} unknowns, 5 % of the area peridynamic, elastic, 2 ranks; wall seconds. "
+                "Set-up and solve is all but start, reading and writing. Target: 1.5 times FE only.",
+                ["model", "iterations", "search", "assemble", "preconditioner", "CG", "set-up and solve", "/ FE only",
+                 "whole run / FE only", "MB per rank"], rows)
+
+
+def print_ranks(folder, scale):
+    """Speed-up by ranks, and whether they agree."""
+    rows = []
+    for model, unknowns in (("FE only", 8e5), ("hybrid", 8e5), ("all peridynamic", 2e5)):
+        runs = [measured(square(folder, side_for(scale * unknowns), model), folder, ranks) for ranks in (1, 2, 4)]
+        energies = [float(one.history[-1]["elastic_energy"]) for one in runs]
+        rows.append([f"{model}, {runs[0].history[-1]['unknowns']}", *(f"{one.solving:.2f}" for one in runs),
+                     ratio(runs[0].solving, runs[1].solving), ratio(runs[0].wall, runs[1].wall),
+                     " ".join(one.history[-1]["cg_iterations"] for one in runs),
+                     f"{max(abs(e / energies[0] - 1) for e in energies):.0e}"])
+    print_table("Elastic, wall seconds of set-up and solve on 1, 2 and 4 ranks. Target: 2 ranks 1.7 times faster than 1; "
+                "4 agree.",
+                ["model, unknowns", "1", "2", "4", "1 / 2", "whole run, 1 / 2", "iterations", "energies differ by"], rows)
+
+
+def double_notch(folder, name, seeds=None):
+    """The case, with its mesh made already, so that both runs have the same."""
+    case = ElementTree.parse(DOUBLE_NOTCH)
+    mesh = os.path.join(folder, "double_notch")
+    if not os.path.exists(mesh + ".msh"):
+        with open(os.path.splitext(DOUBLE_NOTCH)[0] + ".geo") as geometry:
+            make_mesh(mesh, geometry.read())
+    case.find("./ParameterList[@name='Mesh']/Parameter[@name='File']").set("value", os.path.abspath(mesh + ".msh"))
+    if seeds is not None:
+        morphing = case.find("./ParameterList[@name='Morphing']")
+        morphing.remove(morphing.find("./ParameterList[@name='Seeds']"))
+        morphing.append(ElementTree.fromstring(seeds))
+    file = os.path.join(folder, name + ".xml")
+    case.write(file)
+    return file
+
+
+def print_notch(folder, scale):
+    """What the hybrid model saves in a run with fracture."""
+    everywhere = ('<ParameterList name="Seeds"><ParameterList name="body"><Parameter name="Shape" type="string" '
+                  'value="Everything"/></ParameterList></ParameterList>')
+    iterations = max(1, round(50 * scale))
+    runs = {}
+    for model, seeds in (("hybrid", None), ("all peridynamic", everywhere)):
+        case = double_notch(folder, "notch-" + model.replace(" ", "-"), seeds)
+        runs[model] = measured(case, folder, 2, settings=[f"Loading/Maximum Damage Iterations={iterations}"],
+                               ends=(STOPPED_AT_A_LIMIT,))
+    hybrid = runs["hybrid"]
+    rows = [[model, one.history[-1]["unknowns"], one.history[-1]["increment"], f"{one.wall:.1f}", f"{one.solving:.1f}",
+             ratio(one.wall, hybrid.wall), ratio(one.solving, hybrid.solving), f"{one.memory:.0f}",
+             ratio(one.memory, hybrid.memory)] for model, one in runs.items()]
+    print_table(f"Double notch, up to the first increment with {iterations} damage iterations, 2 ranks. Targets: all "
+                "peridynamic takes 10 times longer and 4 times more memory.",
+                ["model", "unknowns", "increments done", "wall [s]", "set-up and solve [s]", "wall / hybrid",
+                 "set-up and solve / hybrid", "MB per rank", "/ hybrid"], rows)
+
+
+def print_examples(folder, scale):
+    """All of inputs/, from the first increment to the last."""
+    rows = []
+    for case in sorted(glob.glob(os.path.join(ROOT, "inputs", "*", "*.xml"))):
+        one = measured(case, folder, 2, ends=(0, STOPPED_AT_A_LIMIT))
+        name, last = os.path.splitext(os.path.basename(case))[0], one.history[-1]
+        longest = sorted((s, p) for p, s in one.phases.items() if p != "total")[:-4:-1]
+        rows.append([name, last["increment"] + (", then stopped" if one.status else ""), last["broken_bonds"],
+                     f"{one.wall:.1f}", f"{one.processor:.1f}", f"{one.memory:.0f}",
+                     ", ".join(f"{phase} {seconds:.0f}" for seconds, phase in longest)])
+    print_table("The examples on 2 ranks. Target: two minutes of wall time each.",
+                ["case", "increments", "broken bonds", "wall [s]", "processor [s]", "MB per rank", "longest phases [s]"],
+                rows)
+
+
+TABLES = {"iterations": print_iterations, "zone": print_zone, "ranks": print_ranks, "notch": print_notch,
+          "examples": print_examples}
