@@ -3,6 +3,7 @@
 import collections
 import csv
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -17,8 +18,10 @@ def xml(name, value):
     """A parameter, or a list of them."""
     if isinstance(value, dict):
         return f'<ParameterList name="{name}">\n' + "".join(xml(*item) for item in value.items()) + "</ParameterList>\n"
-    kind = {float: "double", int: "int"}.get(type(value), "string")
-    if isinstance(value, str) and value.startswith("{"):
+    kind = {float: "double", int: "int", list: "Array(double)"}.get(type(value), "string")
+    if isinstance(value, list):
+        value = "{" + ", ".join(repr(float(number)) for number in value) + "}"
+    elif isinstance(value, str) and value.startswith("{"):
         kind = "Array(string)" if name == "Reactions" else "Array(double)"
     return f'<Parameter name="{name}" type="{kind}" value="{value}"/>\n'
 
@@ -48,25 +51,52 @@ class Run(collections.namedtuple("Run", "status wall processor memory history ph
         return self.phases["total"] - self.phases["read"] - self.phases["write"]
 
 
-def run(case, output, ranks=1, settings=(), ends=(0,)):
+def rows_of(output):
+    """The complete rows of a history.csv that may still be written."""
+    try:
+        with open(os.path.join(output, "history.csv"), newline="") as file:
+            return [row for row in csv.DictReader(file) if None not in row.values()]
+    except FileNotFoundError:
+        return []
+
+
+def wait_until(is_enough, process, output):
+    """Ends a run once is_enough(its rows); returns its status and usage, whether it was ended."""
+    while True:
+        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if pid != 0:
+            return status, usage, False
+        time.sleep(0.1)
+        if is_enough(rows_of(output)):
+            process.kill()
+            _, status, usage = os.wait4(process.pid, 0)
+            return status, usage, True
+
+
+def run(case, output, ranks=1, settings=(), ends=(0,), is_enough=None):
     """Runs a case as tools/run would, without building.
 
-    settings: texts such as "Loading/Increments=1"; ends: the exit statuses that are no failure.
+    settings: texts such as "Loading/Increments=1"; ends: the exit statuses that are no failure; is_enough: a run on one
+    rank is ended once it says so of the rows.
     """
     program = 'exec $1 "$root/build/drivers/perimorph" run "${@:2}" --quiet --no-progress'
     command = ["bash", "-c", f'. "$0"; {program}', os.path.join(TOOLS, "environment"),
                f"mpirun --quiet -n {ranks}" if ranks > 1 else "", case, "--output", output]
     for setting in settings:
         command += ["--set", setting]
+    if is_enough:
+        shutil.rmtree(output, ignore_errors=True)  # the rows of an earlier run would be taken for this one's
     begin = time.monotonic()
     process = subprocess.Popen(command)
-    _, status, usage = os.wait4(process.pid, 0)
+    if is_enough:
+        status, usage, was_enough = wait_until(is_enough, process, output)
+    else:
+        (_, status, usage), was_enough = os.wait4(process.pid, 0), False
     wall = time.monotonic() - begin
     status = os.waitstatus_to_exitcode(status)
-    if status not in ends:
+    if status not in ends and not was_enough:
         sys.exit(f"{case}: the run ended with status {status}")
-    with open(os.path.join(output, "history.csv"), newline="") as file:
-        history = list(csv.DictReader(file))
+    history = rows_of(output)
     phases = {row[0]: float(row[1]) for row in Log(output).profile}
     # Of children that have ended, the system keeps the memory of the largest.
     return Run(status, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, history, phases)

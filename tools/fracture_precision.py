@@ -6,7 +6,8 @@ import os
 import matplotlib.pyplot as plt
 import numpy as np
 
-from precision_runs import E, NU, prescribed, run, write_case, write_mesh, write_rows
+from cases import run, write_case
+from precision_runs import E, NU, prescribed, write_mesh, write_rows
 
 G_C = 0.03  # small: strains stay below 1 %
 STEP = 0.01  # of K over sqrt(E G_c), an increment
@@ -172,11 +173,11 @@ def measure(studies, folder):
         for changes in STUDIES[study]:
             setting = {**DEFAULT, **changes}
             case = case_of(folder, setting)
-            write_case(os.path.join(folder, "crack.xml"), "crack", case)
-            seconds, memory, history = run(os.path.join(folder, "crack.xml"), os.path.join(folder, "crack"), has_grown)
+            write_case(os.path.join(folder, "crack.xml"), case)
+            one = run(os.path.join(folder, "crack.xml"), os.path.join(folder, "crack"), is_enough=has_grown)
             shown = {key: f"{value:.3g}" if isinstance(value, float) else value for key, value in setting.items()}
-            rows.append({"study": study, **shown, **measured(history, setting), "unknowns": history[-1]["unknowns"],
-                         "seconds": f"{seconds:.3g}", "memory_mb": f"{memory:.0f}"})
+            rows.append({"study": study, **shown, **measured(one.history, setting), "unknowns": one.history[-1]["unknowns"],
+                         "seconds": f"{one.processor:.3g}", "memory_mb": f"{one.memory:.0f}"})
             print("  ".join(f"{key} {value}" for key, value in rows[-1].items()), flush=True)
             write_rows(file, rows)
     draw(rows, os.path.join(folder, "fracture.png"))

@@ -216,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"xml(:8: /Material/Elastic Model: found "Three-Dimensional"; allowed is "Plane Stress" or "Plane Str)xml"},
         Mistake{
             "Sphere", tip, R"xml(<Parameter name="Shape" type="string" value="Sphere"/>)xml" + tip,
-            R"xml(:18: /Morphing/Seeds/tip/Shape: found "Sphere"; allowed is "Circle" or "Box" or "Everything" in )xml"
+            R"xml(:18: /Morphing/Seeds/tip/Shape: found "Sphere"; allowed is "Circle" or "Box" or "Everything" or "Automatic" in )xml"
             "two dimensions (/Dimension)"},
         Mistake{"CenterOfThree", "{100, 10}", "{100, 10, 0}",
                 ":18: /Morphing/Seeds/tip/Center: found {100, 10, 0}; allowed are 2 numbers, one per dimension"},
@@ -272,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             "Circle", R"xml(value="Sphere")xml", R"xml(value="Circle")xml",
             R"xml(:18: /Morphing/Seeds/tip/Shape: found "Circle"; allowed is "Sphere" or "Cylinder" or "Box" or )xml"
-            R"xml("Everything" in three dimensions (/Dimension))xml"},
+            R"xml("Everything" or "Automatic" in three dimensions (/Dimension))xml"},
         Mistake{"CircleByDefault", R"xml(<Parameter name="Shape" type="string" value="Sphere"/>)xml", "",
                 R"xml(:17: /Morphing/Seeds/tip/Shape: found "Circle"; allowed is "Sphere")xml"},
         Mistake{"CenterOfTwo", "{100, 10, 0}", "{100, 10}",
