@@ -264,7 +264,8 @@ void Checkpoints<dim>::accept(int increment, Body<dim>& body, const Results<dim>
 template <int dim>
 void Checkpoints<dim>::balance(const Body<dim>& body) {
   constexpr double growth = 1.2;
-  if (comm_->getSize() == 1) return;
+  if (comm_->getSize() == 1 || body.counts().topologies == weighed_topology_) return;
+  weighed_topology_ = body.counts().topologies;
   const auto [total, imbalance] = measure_load(*comm_, body);
   const double before = base::max(*comm_, std::accumulate(costs_.begin(), costs_.end(), 0.));
   if (imbalance <= largest_imbalance_ || total <= growth * before) return;

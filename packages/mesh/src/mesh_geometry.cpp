@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "child_process.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/gmsh.hpp"
 
@@ -53,26 +53,6 @@ struct Outcome {
   int status;       // as of waitpid()
   std::string output;
 };
-
-std::string read_to_end(int descriptor) {
-  std::string text;
-  std::array<char, 4096> piece;
-  for (ssize_t n; (n = read(descriptor, piece.data(), piece.size())) != 0;) {
-    if (n > 0) {
-      text.append(piece.data(), static_cast<std::size_t>(n));
-    } else if (errno != EINTR) {
-      break;
-    }
-  }
-  return text;
-}
-
-int wait_for(pid_t process) {
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
-}
 
 /// Runs a program found on the PATH to its end, without input; collects what it writes on both streams.
 Outcome run(Words command) {

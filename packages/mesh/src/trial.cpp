@@ -5,12 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 
+#include "child_process.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::mesh {
@@ -55,19 +55,6 @@ void confine(std::size_t memory, unsigned seconds) {
   _exit(status);
 }
 
-std::string read_to_end(int descriptor) {
-  std::string text;
-  std::array<char, 4096> piece;
-  for (ssize_t n; (n = read(descriptor, piece.data(), piece.size())) != 0;) {
-    if (n > 0) {
-      text.append(piece.data(), static_cast<std::size_t>(n));
-    } else if (errno != EINTR) {
-      break;
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string on_trial(const std::function<void()>& work, std::size_t memory, unsigned seconds) {
@@ -81,10 +68,8 @@ std::string on_trial(const std::function<void()>& work, std::size_t memory, unsi
   close(ends[1]);
   const std::string message = process < 0 ? "" : read_to_end(ends[0]);
   close(ends[0]);
-  int status = 0;
-  while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
   if (process < 0) return "no process for it could be started";
+  const int status = wait_for(process);
   if (WIFEXITED(status) && WEXITSTATUS(status) == ended) return "";
   if (WIFEXITED(status) && WEXITSTATUS(status) == refused) throw base::UserError(message);
   if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));

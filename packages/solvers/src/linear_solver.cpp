@@ -29,7 +29,7 @@ void LinearSolver::forget() {
   multigrid_.reset();
   factorization_.reset();
   condition_ = Condition::missing;
-  smoothing_ = Smoothing::fast;
+  cycle_ = Cycle::fast;
 }
 
 int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solution, double target) {
@@ -41,9 +41,9 @@ int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solutio
 
   const double relative_tolerance = target / norm[0];
   Outcome outcome = attempt(right_hand_side, solution, relative_tolerance);
-  while (!outcome.converged && smoothing_ != Smoothing::one_level) {
+  while (!outcome.converged && cycle_ != Cycle::one_level) {
     condition_ = Condition::missing;
-    smoothing_ = smoothing_ == Smoothing::fast ? Smoothing::robust : Smoothing::one_level;
+    cycle_ = cycle_ == Cycle::fast ? Cycle::robust : Cycle::one_level;
     solution.putScalar(0.);
     outcome = attempt(right_hand_side, solution, relative_tolerance);
   }
@@ -69,7 +69,7 @@ LinearSolver::Outcome LinearSolver::attempt(const MultiVector& right_hand_side, 
 }
 
 bool LinearSolver::is_factorized() const {
-  return smoothing_ == Smoothing::one_level && preconditioner_matrix_->getGlobalNumRows() <= most_factorized;
+  return cycle_ == Cycle::one_level && preconditioner_matrix_->getGlobalNumRows() <= most_factorized;
 }
 
 void LinearSolver::build() {
@@ -78,7 +78,7 @@ void LinearSolver::build() {
   if (is_factorized()) {
     factorization_ = std::make_unique<Factorization>(preconditioner_matrix_);
   } else {
-    multigrid_ = std::make_unique<Multigrid>(preconditioner_matrix_, near_null_space_, parameters_.muelu, smoothing_);
+    multigrid_ = std::make_unique<Multigrid>(preconditioner_matrix_, near_null_space_, parameters_.muelu, cycle_);
   }
   fresh_rate_ = 0.;
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// The drop tolerance halves the iterations with damage. With sums of absolute values in place of the diagonal no
 /// eigenvalue need be estimated: none exceeds 1.
-Teuchos::ParameterList default_parameters(Multigrid::Smoothing smoothing) {
+Teuchos::ParameterList default_parameters(Multigrid::Cycle cycle) {
   Teuchos::ParameterList list("MueLu");
   list.set("verbosity", "none");
   list.set("aggregation: drop tol", 0.02);
@@ -21,7 +21,7 @@ Teuchos::ParameterList default_parameters(Multigrid::Smoothing smoothing) {
   list.set("sa: max eigenvalue", 1.);
   list.set("coarse: max size", 100);
   list.set("reuse: type", "RP");
-  if (smoothing == Multigrid::Smoothing::fast) {  // our own cycle has its own smoother
+  if (cycle == Multigrid::Cycle::fast) {  // our own cycle has its own smoother
     list.set("smoother: pre or post", "none");
     list.set("coarse: type", "none");
     return list;
@@ -34,7 +34,7 @@ Teuchos::ParameterList default_parameters(Multigrid::Smoothing smoothing) {
   auto& coarse = list.sublist("coarse: params");
   coarse.set("relaxation: type", "Symmetric Gauss-Seidel");
   coarse.set("relaxation: sweeps", 20);
-  if (smoothing == Multigrid::Smoothing::one_level) {
+  if (cycle == Multigrid::Cycle::one_level) {
     list.set("max levels", 1);
     // Between ranks the sweeps are Jacobi's: one of them is positive definite for sure, several are not.
     coarse.set("relaxation: sweeps", 1);
@@ -98,11 +98,11 @@ NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Poi
 }
 
 Multigrid::Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space,
-                     const Teuchos::ParameterList& overrides, Smoothing smoothing)
+                     const Teuchos::ParameterList& overrides, Cycle cycle)
     : hierarchy_(std::make_unique<Hierarchy>()),
       dim_(static_cast<int>(near_null_space.coordinates->getNumVectors())),
-      has_own_cycle_(smoothing == Smoothing::fast) {
-  Teuchos::ParameterList list = default_parameters(smoothing);
+      has_own_cycle_(cycle == Cycle::fast) {
+  Teuchos::ParameterList list = default_parameters(cycle);
   list.setParameters(overrides);
   list.set("number of equations", dim_);
   auto& data = list.sublist("user data");

@@ -31,7 +31,7 @@ class Multigrid : public testing::Test {
     std::vector<Point2> coordinates;
     for (int n = 0; n < body.dofs->n_owned_nodes(); ++n)
       coordinates.push_back(body.mesh.coordinates[body.dofs->reference_node(n)]);
-    return {matrix, solvers::rigid_body_modes<2>(*matrix, coordinates), {}, solvers::Multigrid::Smoothing::fast};
+    return {matrix, solvers::rigid_body_modes<2>(*matrix, coordinates), {}, solvers::Multigrid::Cycle::fast};
   }
 
   /// The same on any number of ranks.

@@ -15,9 +15,9 @@ struct StretchedPlace {
 
 /// The places where a body in its present state is stretched most, from the most stretched one on: elements that no
 /// other within the inner radius exceeds, that reach the share of the largest strain, and that are not peridynamic
-/// already. Strains that differ by less than 1e-4 of the
-/// largest count as equal, and then the lower id goes first, so that all numbers of ranks choose alike. Elements with
-/// prescribed displacements are left out: under a point support strains only show how fine the mesh is. Collective.
+/// already. Strains that differ by less than 1e-4 of the largest count as equal, and then the lower id goes first, so
+/// that all numbers of ranks choose alike. Elements with prescribed displacements are left out: under a point support
+/// strains only show how fine the mesh is. Collective.
 template <int dim>
 std::vector<StretchedPlace<dim>> most_stretched(const base::Comm& comm, const Body<dim>& body,
                                                 const Problem<dim>& problem, const AutomaticSeed& seed);

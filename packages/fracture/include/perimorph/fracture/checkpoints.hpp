@@ -68,6 +68,7 @@ class Checkpoints {
   std::vector<base::GlobalId> mesh_identity_;
 
   std::vector<double> costs_;  ///< on rank 0, by element
+  base::GlobalId weighed_topology_ = 0;
   bool is_to_be_parted_anew_ = false;
 
   int increment_ = 0;        ///< loaded or remembered last

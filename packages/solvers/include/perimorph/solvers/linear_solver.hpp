@@ -38,7 +38,7 @@ class LinearSolver {
 
  private:
   enum class Condition { missing, aged, good };
-  using Smoothing = Multigrid::Smoothing;
+  using Cycle = Multigrid::Cycle;
 
   SolverParameters parameters_;
   base::Profile& profile_;
@@ -49,7 +49,7 @@ class LinearSolver {
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
   Condition condition_ = Condition::missing;
   bool refreshed_ = false;  ///< since the last rebuild
-  Smoothing smoothing_ = Smoothing::fast;
+  Cycle cycle_ = Cycle::fast;
 
   bool is_factorized() const;
   void prepare();

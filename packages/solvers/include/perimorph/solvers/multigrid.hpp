@@ -29,11 +29,11 @@ class Multigrid {
  public:
   /// Our cycle in single precision (fast); MueLu's with symmetric Gauss-Seidel in double precision (robust); the same
   /// without coarse levels, which are rounding errors in a body that is all floating pieces.
-  enum class Smoothing { fast, robust, one_level };
+  enum class Cycle { fast, robust, one_level };
 
   /// Sets it up. @param overrides parameters of MueLu that replace or add to ours. Collective.
   Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space,
-            const Teuchos::ParameterList& overrides, Smoothing smoothing);
+            const Teuchos::ParameterList& overrides, Cycle cycle);
   ~Multigrid();
 
   /// New values in the same matrix: keeps aggregates and prolongators ("RP" reuse), renews the rest. Collective.
