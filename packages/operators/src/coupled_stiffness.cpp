@@ -32,6 +32,12 @@ Teuchos::RCP<Tpetra::Operator<double>> CoupledStiffness<dim>::linear_operator() 
   return matrix_;
 }
 
+template <int dim>
+std::size_t CoupledStiffness<dim>::bytes() const {
+  const auto local = matrix_->getLocalMatrixHost();
+  return local.nnz() * (sizeof(double) + sizeof(int)) + (local.numRows() + std::size_t{1}) * sizeof(std::size_t);
+}
+
 /// A node is coupled to all nodes of its elements and of the elements that these have bonds with.
 template <int dim>
 void CoupledStiffness<dim>::find_pattern() {
