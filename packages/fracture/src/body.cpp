@@ -140,6 +140,11 @@ void Body<dim>::assemble() {
 }
 
 template <int dim>
+std::size_t Body<dim>::bytes_of_operator() const {
+  return options_.operator_form == OperatorForm::crs ? matrix_->bytes() : stiffness_->bytes();
+}
+
+template <int dim>
 void Body<dim>::classify() {
   const auto extremes = bonds_.neighbourhood_extremes(alpha_);
   for (int e = 0; e < mesh_.n_owned_elements; ++e) {

@@ -36,6 +36,12 @@ Teuchos::RCP<Tpetra::Operator<double>> CoupledStiffness<dim>::linear_operator() 
   return matrix_;
 }
 
+template <int dim>
+std::size_t CoupledStiffness<dim>::bytes() const {
+  const auto local = matrix_->getLocalMatrixHost();
+  return local.nnz() * (sizeof(double) + sizeof(int)) + (local.numRows() + std::size_t{1}) * sizeof(std::size_t);
+}
+
 /// By node, the nodes that bonds couple it to because one of their ends is an unknown. Owned nodes.
 template <int dim>
 std::vector<std::vector<int>> CoupledStiffness<dim>::nodes_bonded_by_points() const {

@@ -36,6 +36,7 @@ class CoupledStiffness {
 
   const Teuchos::RCP<Matrix>& matrix() const { return matrix_; }
   Teuchos::RCP<Tpetra::Operator<double>> linear_operator() const;
+  std::size_t bytes() const;  ///< of memory: the matrix's values, columns and row starts
 
   /// Takes the springs of newly broken bonds out of the values, in place. Local.
   void subtract(const std::vector<std::size_t>& broken);
