@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 
@@ -28,7 +29,7 @@ struct Arguments {
   }
 };
 
-/// Rank 0 reads the case file; a mistake in it is an error on all ranks, and no rank reads on its own.
+/// Every rank reads it; a mistake in it is an error on all ranks.
 fracture::Case read_case(const base::Comm& comm, const Arguments& arguments) {
   fracture::Case input;
   base::on_all_ranks(comm, [&] { input = fracture::read_case(arguments.case_file, arguments.overrides); });
@@ -65,6 +66,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
 
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is then an error in order, like a full disk
   Tpetra::ScopeGuard mpi(&argc, &argv);
   const auto comm = Tpetra::getDefaultComm();
   const auto fail = [&](const char* kind, const std::exception& error, int status) {

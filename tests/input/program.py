@@ -205,6 +205,16 @@ class Conditions(Program):
             ranks=[1, 4],
         )
 
+    def test_all_that_does_not_fit_the_mesh_is_told_at_once(self):
+        self.write("plate.xml", case(HELD + displacement("pull", "corner", "x", 0.1) + displacement("push", "lefft", "y")))
+        self.assert_refused(
+            'no group of nodes called "lefft"; it has "apart", "corner", "left" - did you mean "left"?',
+            "/Boundary Conditions/Displacements/pull: prescribes another x displacement than",
+            "/Output/Probes/one/Points: (3, 0.5) is outside the body",
+            options=["--set", "Output/Probes/one/Points={3, 0.5}"],
+            ranks=[1, 4],
+        )
+
     def test_groups_of_another_dimension(self):
         traction = '<ParameterList name="t"><Parameter name="Group" type="string" value="corner"/></ParameterList>'
         self.write("plate.xml", case(HELD + displacement("all", "plate", "x"), tractions=traction))

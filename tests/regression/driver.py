@@ -22,15 +22,15 @@ del sys.argv[1:3]
 N = 12  # elements along each side of a square plate, size 1
 
 
-def mesh():
+def mesh(columns=N):
     """gmsh's format 2.2: block "body", the right edge "right", and the two left corners."""
     names = ['0 1 "lower"', '0 2 "upper"', '1 3 "right"', '2 4 "body"']
-    node = lambda i, j: j * (N + 1) + i + 1
-    nodes = [f"{node(i, j)} {i} {j} 0" for j in range(N + 1) for i in range(N + 1)]
+    node = lambda i, j: j * (columns + 1) + i + 1
+    nodes = [f"{node(i, j)} {i} {j} 0" for j in range(N + 1) for i in range(columns + 1)]
     elements = [f"15 2 1 1 {node(0, 0)}", f"15 2 2 2 {node(0, N)}"]
-    elements += [f"1 2 3 3 {node(N, j)} {node(N, j + 1)}" for j in range(N)]
+    elements += [f"1 2 3 3 {node(columns, j)} {node(columns, j + 1)}" for j in range(N)]
     elements += [
-        f"3 2 4 4 {node(i, j)} {node(i + 1, j)} {node(i + 1, j + 1)} {node(i, j + 1)}" for j in range(N) for i in range(N)
+        f"3 2 4 4 {node(i, j)} {node(i + 1, j)} {node(i + 1, j + 1)} {node(i, j + 1)}" for j in range(N) for i in range(columns)
     ]
     numbered = [f"{k} {element}" for k, element in enumerate(elements, 1)]
     section = lambda name, lines: [f"${name}", str(len(lines)), *lines, f"$End{name}"]
@@ -224,6 +224,22 @@ class Runs(Driver):
         os.close(terminal)
         self.assertEqual(run.wait(timeout=60), 0)
         self.assertRegex(shown.decode(), r"\r\x1b\[K\[=*> *\] step 3/3: \d+ solves, \d+ broken bonds, at this pace \d+ s left")
+
+    def test_crack_faces_that_overlap_are_told(self):
+        pressed = ["--set", "Boundary Conditions/Displacements/pull up/Rate=-0.02", "--set", "Boundary Conditions/Displacements/pull down/Rate=0.02"]
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.assertEqual(self.run_case(ranks=ranks).returncode, 0)
+                self.assertEqual([float(row["overlap"]) for row in self.history()], [0, 0, 0])
+                self.assertNotIn("overlap", (self.output / "run.log").read_text())
+
+                self.assertEqual(self.run_case(*pressed, ranks=ranks).returncode, 0)
+                overlaps = [float(row["overlap"]) for row in self.history()]
+                # The corners approach each other by 0.04 an increment; the mouth between them follows.
+                for increment, overlap in enumerate(overlaps, 1):
+                    self.assertGreater(overlap, increment * 0.02)
+                    self.assertLess(overlap, increment * 0.04)
+                self.assertEqual((self.output / "run.log").read_text().count("crack faces overlap, by"), 1)
 
     def test_two_ranks_write_the_history_and_fields_of_one(self):
         self.assertEqual(self.run_case().returncode, 0)

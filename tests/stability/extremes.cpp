@@ -1,5 +1,7 @@
 // Zones, horizons, meshes and material values at the ends of what is possible.
 
+#include <gmock/gmock.h>
+
 #include "perimorph/base/errors.hpp"
 #include "watched_run.hpp"
 
@@ -109,17 +111,52 @@ TEST(Extremes, ASeedOutsideTheBodyLeavesItClassical) {
 }
 
 TEST(Extremes, AHorizonSmallerThanTheElementsEndsInOrder) {
-  // No bonds at all; bonds across edges only, which leave mechanisms; bonds to nearest neighbours.
-  for (const double horizon : {0.4, 0.5, 0.7}) {
+  const auto with = [](double horizon) {
     Specimen specimen = plate(grid(squares));
     specimen.horizon = horizon;
+    return specimen;
+  };
+  WatchedRun without_bonds(with(0.4), "top", 1);
+  without_bonds.advance(0.05);
+  EXPECT_GT(without_bonds.advance(2.).force, 0.);  // around the zone, which carries nothing
+  EXPECT_EQ(without_bonds.rows.back().broken, 0);
+
+  WatchedRun to_nearest_neighbours(with(0.7), "top", 1);
+  to_nearest_neighbours.advance(0.05);
+  to_nearest_neighbours.advance(2.);
+  EXPECT_GT(to_nearest_neighbours.rows.back().broken, 0);
+
+  // Bonds across edges only leave mechanisms: a solution, or exit status 3.
+  WatchedRun across_edges(with(0.5), "top", 1);
+  try {
+    across_edges.advance(0.05);
+    across_edges.advance(2.);
+  } catch (const base::ComputationError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("conjugate gradients"));
+  }
+}
+
+TEST(Extremes, ARimNarrowerThanTheHorizonPartsAsAWideOneDoes) {
+  for (const double rim : {0.2, 1., 4.}) {
+    Specimen specimen = plate(grid(squares));
+    specimen.seeds = {Zone<2>::ball({6., 4.}, 3., 3. + rim)};
     WatchedRun run(specimen, "top", 1);
-    try {
-      run.advance(0.05);
-      run.advance(2.);
-    } catch (const base::ComputationError&) {  // exit status 3
-      EXPECT_LT(horizon, 0.7);
-    }
+    run.advance(0.01);
+    EXPECT_EQ(run.rows.back().broken, 0);
+    run.advance_to(2., 4);
+    run.expect_severed();
+  }
+}
+
+TEST(Extremes, AToleranceBeyondRoundingEndsInOrder) {
+  Specimen specimen = plate(grid(squares));
+  specimen.tolerance = 1e-20;
+  WatchedRun run(specimen, "top", 1);
+  try {
+    run.advance(0.01);
+    FAIL() << "no error";
+  } catch (const base::ComputationError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the forces do not balance"));
   }
 }
 

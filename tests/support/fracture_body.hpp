@@ -32,7 +32,8 @@ struct SpecimenIn {
   double youngs_modulus = 1000.;
   materials::ElasticModel elastic_model =
       dim == 2 ? materials::ElasticModel::plane_stress : materials::ElasticModel::three_dimensional;
-  double breaking_fraction = 1.;  ///< share of the overstretched bonds that break between two solves
+  double breaking_fraction = 1.;   ///< share of the overstretched bonds that break between two solves
+  std::vector<double> costs = {};  ///< of elements, by which they are parted among the ranks; equal if there are none
 };
 using Specimen = SpecimenIn<2>;
 
@@ -79,7 +80,7 @@ struct SpecimenBodyIn {
 
   explicit SpecimenBodyIn(const SpecimenIn<dim>& specimen,
                           const Teuchos::RCP<const base::Comm>& comm = Tpetra::getDefaultComm())
-      : mesh(mesh::distribute(*comm, specimen.whole, specimen.horizon)),
+      : mesh(mesh::distribute(*comm, specimen.whole, specimen.horizon, specimen.costs)),
         problem(make_problem(specimen)),
         body(comm, mesh, problem, make_options(specimen), profile) {}
 

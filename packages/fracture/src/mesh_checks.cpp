@@ -113,11 +113,10 @@ class Checks {
 
   void run() {
     check_groups();
+    const bool are_supports_known = mistakes_.empty();
     check_probes();
-    if (mistakes_.empty()) {  // the supports are known only then
-      check_contradictions();
-      check_free_motions();
-    }
+    check_contradictions();
+    if (are_supports_known) check_free_motions();
     check_horizon();
     if (!mistakes_.empty()) throw base::UserError(mistakes_.substr(1));
   }
@@ -189,7 +188,9 @@ class Checks {
     std::vector<int> set_by(static_cast<std::size_t>(mesh_.n_nodes()) * dim, -1);
     std::map<std::pair<int, int>, std::vector<int>> nodes_of_pair;
     for (int i = 0; i < static_cast<int>(conditions.size()); ++i) {
-      for (const int node : mesh_.node_sets.at(conditions[i].group)) {
+      const auto group = mesh_.node_sets.find(conditions[i].group);
+      if (group == mesh_.node_sets.end()) continue;  // told already
+      for (const int node : group->second) {
         int& first = set_by[static_cast<std::size_t>(node) * dim + conditions[i].component];
         if (first < 0) first = i;
         const auto &a = conditions[first], &b = conditions[i];

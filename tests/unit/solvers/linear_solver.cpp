@@ -160,6 +160,32 @@ TEST_F(LinearSolver, AFactorizationSolvesWhatMultigridDoesNotSolveInTime) {
   }
 }
 
+TEST_F(LinearSolver, AFactorizationSolvesWhereMultigridCannotBeSetUp) {
+  solvers::SolverParameters parameters;
+  parameters.muelu.set("multigrid algorithm", "none such");
+  solvers::LinearSolver solver(parameters, profile);
+  use(solver, body);
+
+  solver.solve(b, x, 1e-10);
+  EXPECT_LE(residual(), 1.01e-10);
+}
+
+TEST_F(LinearSolver, AFloatingBodyIsSolvedForForcesInBalance) {
+  const CoupledBody floating(hybrid(false));
+  solvers::LinearSolver solver({}, profile);
+  use(solver, floating);
+  const auto& stiffness = *floating.stiffness->matrix();
+  MultiVector shape(stiffness.getRowMap(), 1), load(shape.getMap(), 1), solution(shape.getMap(), 1);
+  shape.randomize();
+  stiffness.apply(shape, load);  // in the range of a matrix that has rigid motions
+
+  const double target = 1e-8 * norm(load);
+  const int iterations = solver.solve(load, solution, target);
+  EXPECT_LT(iterations, 60);
+  stiffness.apply(solution, load, Teuchos::NO_TRANS, -1., 1.);
+  EXPECT_LE(norm(load), 1.01 * target);
+}
+
 TEST_F(LinearSolver, TooFewIterationsEndInAComputationErrorThatSaysSo) {
   solvers::SolverParameters parameters;
   parameters.max_iterations = 2;
