@@ -33,6 +33,7 @@ struct SpecimenIn {
   materials::ElasticModel elastic_model =
       dim == 2 ? materials::ElasticModel::plane_stress : materials::ElasticModel::three_dimensional;
   double breaking_fraction = 1.;  ///< share of the overstretched bonds that break between two solves
+  int points_per_direction = 2;
 };
 using Specimen = SpecimenIn<2>;
 
@@ -66,6 +67,7 @@ fracture::BodyOptions make_options(const SpecimenIn<dim>& specimen) {
     options.short_range_cut_off = 0.6 * specimen.horizon;
   }
   options.breaking_fraction = specimen.breaking_fraction;
+  options.points_per_direction = specimen.points_per_direction;
   return options;
 }
 

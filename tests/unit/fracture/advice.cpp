@@ -13,6 +13,8 @@ using testing::StartsWith;
 /// On elements of 1: what the documentation recommends.
 Case good() {
   Case input{};
+  input.dimension = 2;
+  input.points_per_direction = 2;
   input.fracture_energy = 0.1;
   input.calibration = Calibration::mesh_consistent;
   input.characteristic_length = 1. / 3.;
