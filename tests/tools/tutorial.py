@@ -50,7 +50,7 @@ class Tutorial(unittest.TestCase):
         words = shlex.split(command)
         if words[0] == "tools/run":  # what is built is here; it must not build another
             words = ["build/drivers/perimorph", "run", *words[1:]]
-        done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, timeout=200)
+        done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, timeout=500)
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}\n{done.stderr}")
         return done.stdout
 
@@ -68,7 +68,7 @@ class Tutorial(unittest.TestCase):
 
     def assert_gmshs_window_shows_the_part(self, command):
         """gmsh draws into a file what its window shows, and closes it."""
-        (self.folder / "print.geo").write_text('Print "window.png"; Exit;')
+        (self.folder / "print.geo").write_text('Print "window.png";\nExit;\n')
         self.run_command(f"xvfb-run --auto-servernum {command} print.geo")
         shown = numpy.asarray(Image.open(self.folder / "window.png").convert("RGB")).astype(int)
         curves = (shown[:, :, 2] > shown[:, :, 0] + 80) & (shown[:, :, 0] < 120)  # blue
