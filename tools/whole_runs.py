@@ -2,15 +2,18 @@
 
 import glob
 import os
+import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
-from cases import make_mesh, run
+from cases import TOOLS, make_mesh, run
 from squares import POLICIES, side_for, square
 from tables import print_table
 
-ROOT = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+ROOT = os.path.dirname(TOOLS)
 DOUBLE_NOTCH = os.path.join(ROOT, "inputs", "double_edge_notched_plate", "double_edge_notched_plate.xml")
+EXAMPLES_THAT_BREAK = ["brazilian_disk", "notched_plate_hole_h10", "notched_plate_hole_h15", "notched_beam",
+                       "double_edge_notched_plate"]
 STOPPED_AT_A_LIMIT = 3  # exit status
 
 
@@ -127,5 +130,29 @@ def print_examples(folder, scale):
                 rows)
 
 
+def print_tolerance(folder, scale):
+    """Whether tighter solutions break other bonds, up to the unstable jump."""
+    limit = "Loading/Maximum Damage Iterations=100"
+    rows = []
+    for name in EXAMPLES_THAT_BREAK:
+        case = glob.glob(os.path.join(ROOT, "inputs", "*", name + ".xml"))[0]
+        outputs = [os.path.join(folder, f"{name}-{kind}") for kind in ("default", "tight")]
+        print(f"{name}, twice", file=sys.stderr)
+        loose = run(case, outputs[0], 2, settings=[limit], ends=(0, STOPPED_AT_A_LIMIT))
+        resolved = ElementTree.parse(os.path.join(outputs[0], "resolved.xml"))
+        tolerance = float(resolved.find(".//Parameter[@name='Damage Tolerance']").get("value"))
+        tight = run(case, outputs[1], 2, settings=[limit, f"Solver/Damage Tolerance={tolerance / 100}"],
+                    ends=(0, STOPPED_AT_A_LIMIT))
+        compared = subprocess.run([os.path.join(TOOLS, "compare-runs"), *outputs], check=False,
+                                  stdout=subprocess.PIPE, encoding="utf-8")
+        counts = [str(sum(int(row["cg_iterations"]) for row in one.history)) for one in (loose, tight)]
+        rows.append([name, f"{tolerance:g}", loose.history[-1]["increment"], tight.history[-1]["increment"],
+                     loose.history[-1]["broken_bonds"], "the same" if compared.returncode == 0 else "OTHER", *counts])
+    print_table("Bonds broken with the default Damage Tolerance and with one 100 times tighter, up to the first increment "
+                "that takes more than 100 solves, 2 ranks.",
+                ["case", "Damage Tolerance", "last increment", "and tighter", "broken bonds", "and tighter",
+                 "CG iterations", "and tighter"], rows)
+
+
 TABLES = {"iterations": print_iterations, "zone": print_zone, "ranks": print_ranks, "notch": print_notch,
-          "examples": print_examples}
+          "examples": print_examples, "tolerance": print_tolerance}
