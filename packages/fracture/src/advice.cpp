@@ -46,9 +46,7 @@ class Advice {
           "mechanics{}. "
           "Better is a third of an element, {:.3g}, with a horizon of four",
           input_.characteristic_length, length, resistance,
-          input_.calibration == Calibration::analytic
-              ? ""
-              : " (for which the critical stretch makes up), and they move in jumps",
+          is_calibrated_to_mesh(input_) ? " (for which the critical stretch makes up), and they move in jumps" : "",
           size_ / 3.);
     }
     if (horizon < least_horizon) {

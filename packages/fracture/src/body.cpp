@@ -53,7 +53,7 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       problem_(problem),
       options_(std::move(options)),
       profile_(profile),
-      points_(mesh),
+      points_(mesh, options_.points_per_direction),
       alpha_(mesh, points_, options_.profile),
       bonds_(mesh, points_, mesh::active_elements(mesh), problem.micromodulus, problem.pre_cracks),
       elasticity_(problem.e0, options_.peridynamic_stiffness),
@@ -542,6 +542,7 @@ BodyOptions body_options(const Case& input) {
   options.preconditioner_matrix = input.preconditioner_matrix;
   options.short_range_cut_off = input.short_range_cut_off;
   options.solver = {input.max_cg_iterations, input.renewal_cost, input.belos, input.muelu};
+  options.points_per_direction = input.points_per_direction;
   return options;
 }
 

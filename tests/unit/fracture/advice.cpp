@@ -14,6 +14,7 @@ using testing::StartsWith;
 Case good() {
   Case input{};
   input.dimension = 2;
+  input.points_per_direction = 2;
   input.fracture_energy = 0.1;
   input.calibration = Calibration::mesh_consistent;
   input.characteristic_length = 1. / 3.;

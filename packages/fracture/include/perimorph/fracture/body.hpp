@@ -27,6 +27,7 @@ struct BodyOptions {
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
   double short_range_cut_off = 0.;  ///< [length]
   solvers::SolverParameters solver;
+  int points_per_direction = 2;  ///< material points of an element
 };
 BodyOptions body_options(const Case& input);
 
