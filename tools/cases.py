@@ -32,11 +32,11 @@ def write_case(file, case):
         out.write(xml(os.path.splitext(os.path.basename(file))[0], case))
 
 
-def make_mesh(stem, geometry, *options):
+def make_mesh(stem, geometry, *options, dimension=2):
     """<stem>.msh of gmsh's geometry, which is kept as <stem>.geo."""
     with open(stem + ".geo", "w") as out:
         out.write(geometry)
-    command = ["gmsh", "-2", "-v", "0", *options, stem + ".geo", "-o", stem + ".msh"]
+    command = ["gmsh", f"-{dimension}", "-v", "0", *options, stem + ".geo", "-o", stem + ".msh"]
     if subprocess.run(command, check=False).returncode != 0:
         fail(f"gmsh could not mesh {stem}.geo")
 
@@ -73,17 +73,28 @@ def wait_until(is_enough, process, output):
             return status, usage, True
 
 
+def program(ranks, what, case, settings):
+    """The command that runs or checks a case as the tools for people would, without building."""
+    command = ["bash", "-c", '. "$0"; exec $1 "$root/build/drivers/perimorph" "${@:2}"', os.path.join(TOOLS, "environment"),
+               f"mpirun --quiet -n {ranks}" if ranks > 1 else "", what, case]
+    return command + [part for setting in settings for part in ("--set", setting)]
+
+
+def check(case, settings=()):
+    """What perimorph check tells of a case, on one rank."""
+    done = subprocess.run(program(1, "check", case, settings), stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{case}: the check ended with status {done.returncode}")
+    return done.stdout
+
+
 def run(case, output, ranks=1, settings=(), ends=(0,), is_enough=None):
     """Runs a case as tools/run would, without building.
 
     settings: texts such as "Loading/Increments=1"; ends: the exit statuses that are no failure; is_enough: a run on one
     rank is ended once it says so of the rows.
     """
-    program = 'exec $1 "$root/build/drivers/perimorph" run "${@:2}" --quiet --no-progress'
-    command = ["bash", "-c", f'. "$0"; {program}', os.path.join(TOOLS, "environment"),
-               f"mpirun --quiet -n {ranks}" if ranks > 1 else "", case, "--output", output]
-    for setting in settings:
-        command += ["--set", setting]
+    command = program(ranks, "run", case, settings) + ["--output", output, "--quiet", "--no-progress"]
     if is_enough:
         shutil.rmtree(output, ignore_errors=True)  # the rows of an earlier run would be taken for this one's
     begin = time.monotonic()

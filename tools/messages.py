@@ -1,7 +1,11 @@
-"""What the Python tools share: how the user's mistakes are told."""
+"""What the Python tools share: how the user's mistakes are told, and how what they need gets there."""
 
 import difflib
+import importlib
+import importlib.util
 import os
+import shutil
+import subprocess
 import sys
 
 
@@ -19,10 +23,17 @@ def nearest(name, known):
     return "there are " + ", ".join(known)
 
 
-def need(*modules):
-    """Checks that Debian's packages of these Python modules are there."""
-    import importlib.util
+def missing(modules, programs):
+    return ([module for module in modules if importlib.util.find_spec(module) is None]
+            + [program for program in programs if shutil.which(program) is None])
 
-    missing = [module for module in modules if importlib.util.find_spec(module) is None]
-    if missing:
-        fail(f"the Python modules {', '.join(missing)} are missing: tools/install-dependencies view installs them")
+
+def need(*modules, programs=(), group="view"):
+    """Sees to it that Python modules and programs are there, as tools/run does: what is missing is installed."""
+    if not missing(modules, programs):
+        return
+    subprocess.call([os.path.join(os.path.dirname(os.path.realpath(__file__)), "install-dependencies"), group])
+    importlib.invalidate_caches()
+    left = missing(modules, programs)
+    if left:
+        fail(f"{', '.join(left)} missing, and tools/install-dependencies {group} has not brought it")

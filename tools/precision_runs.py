@@ -5,20 +5,21 @@ import csv
 E, NU = 30000.0, 1.0 / 3.0
 
 
-def write_mesh(file, nodes, quads, boundary):
-    """A mesh of quadrilaterals, MSH 2.2, in which each node of the boundary is a group.
+def write_mesh(file, nodes, elements, boundary):
+    """A mesh of quadrilaterals or triangles, MSH 2.2, in which each node of the boundary is a group.
 
-    nodes: positions (n, 2); quads: (m, 4), from 0; boundary: numbers of nodes. The groups are n0, n1, ...
+    nodes: positions (n, 2); elements: (m, 4 or 3), from 0; boundary: numbers of nodes. The groups are n0, n1, ...
     """
     with open(file, "w") as out:
         out.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(boundary) + 1}\n2 1 "plate"\n')
         out.writelines(f'0 {n + 2} "n{n}"\n' for n in boundary)
         out.write(f"$EndPhysicalNames\n$Nodes\n{len(nodes)}\n")
         out.writelines(f"{n} {float(x)!r} {float(y)!r} 0\n" for n, (x, y) in enumerate(nodes, start=1))
-        out.write(f"$EndNodes\n$Elements\n{len(quads) + len(boundary)}\n")
+        out.write(f"$EndNodes\n$Elements\n{len(elements) + len(boundary)}\n")
         out.writelines(f"{i} 15 2 {n + 2} {n + 1} {n + 1}\n" for i, n in enumerate(boundary, start=1))
-        out.writelines(f"{i} 3 2 1 1 " + " ".join(str(n + 1) for n in quad) + "\n"
-                       for i, quad in enumerate(quads, start=len(boundary) + 1))
+        kind = {3: 2, 4: 3}[len(elements[0])]
+        out.writelines(f"{i} {kind} 2 1 1 " + " ".join(str(n + 1) for n in element) + "\n"
+                       for i, element in enumerate(elements, start=len(boundary) + 1))
         out.write("$EndElements\n")
 
 

@@ -178,7 +178,7 @@ class Log:
 
 def series_of(path, spread_first=False):
     """The files of the series, in order: each a list, of one file or of the spread ones (case.e.N.r) that stand for it.
-    If there are both, the one file counts, unless the spread ones are to come first."""
+    If there are both, the one file counts as long as no rank has written since, unless the spread ones are to come first."""
     first = path
     if os.path.isdir(path):
         candidates = sorted({re.sub(r"(\.e)\.\d+\.\d+$", r"\1", name)
@@ -197,17 +197,21 @@ def series_of(path, spread_first=False):
 
 def files_of(name, spread_first):
     """What stands for a file of the series: itself, or its spread files by rank; none if there is neither."""
-    if os.path.isfile(name) and not spread_first:
-        return [name]
     found = sorted(part for part in glob.glob(glob.escape(name) + ".[0-9]*.[0-9]*") if re.search(r"\.\d+\.\d+$", part))
+    if os.path.isfile(name) and not (found and (spread_first or os.stat(name).st_mtime_ns < last_change(found))):
+        return [name]
     if not found:
-        return [name] if os.path.isfile(name) else []
+        return []
     ranks = int(found[0].split(".")[-2])
     parts = [f"{name}.{ranks}.{rank:0{len(str(ranks))}}" for rank in range(ranks)]
     if sorted(parts) != found:
         fail(f"{name}: the spread files {', '.join(map(os.path.basename, found))} are not those of one run; "
              f"expected {', '.join(map(os.path.basename, parts))}")
     return parts
+
+
+def last_change(files):
+    return max(os.stat(file).st_mtime_ns for file in files)
 
 
 class ExodusFile:
@@ -229,6 +233,10 @@ class ExodusFile:
         self.data = self.parts[0]  # for what is the same in all
         times = [part["time_whole"][:] if "time_whole" in part.variables else [] for part in self.parts]
         self.times = [float(time) for time in min(times, key=len)]  # one rank may be ahead of another
+
+    def close(self):
+        for part in self.parts:
+            part.close()
 
     def records(self, variable):
         """A variable of texts: "qa_records" (program, version, date, time), "info_records" (the resolved case), names."""
@@ -374,6 +382,9 @@ def find_step(files, step):
                 return file, index
     near = ", ".join(f"{time:g}" for time in sorted(sorted(known, key=lambda time: abs(time - wanted))[:4]))
     fail(f"--step {step}: not written; nearest are {near} (of {known[0]:g} to {known[-1]:g})")
+
+
+VIEW = (0.5, -0.75, 0.43)  # direction from the middle of a three-dimensional body to who looks at it
 
 
 def warp_factor(text, box, displacement):

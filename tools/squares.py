@@ -1,6 +1,7 @@
-"""What the Python tools share that measure how cost grows: a square of n x n elements of size 1, held at the bottom, with
-a traction on the top, in three models: finite elements only, hybrid with a peridynamic zone of a twentieth of the area
-(as around a crack from the left edge to the middle), all peridynamic. Horizon 3, l = 1/5. Nothing breaks."""
+"""What the Python tools share that measure how cost grows: a square of n x n elements of size 1, or a cube of n x n x n, held
+at the bottom, with a traction on the top, in three models: finite elements only, hybrid with a peridynamic zone of a
+twentieth of the area or volume (as around a crack from the left edge or face to the middle), all peridynamic. Horizon 3 unless
+the caller says otherwise, l = 1/5. Nothing breaks."""
 
 import os
 
@@ -20,46 +21,68 @@ Plane Surface(1) = {{1}};
 Transfinite Curve{{1:4}} = n + 1;
 Transfinite Surface{{1}};
 Recombine Surface{{1}};
-Physical Surface("body") = {{1}};
-Physical Curve("bottom") = {{1}};
-Physical Curve("top") = {{3}};
 """
+GROUPS = {2: """
+Physical Surface("body") = {1};
+Physical Curve("bottom") = {1};
+Physical Curve("top") = {3};
+""", 3: """
+drawn() = Extrude {0, 0, n} { Surface{1}; Layers{n}; Recombine; };
+Physical Volume("body") = {drawn(1)};
+Physical Surface("bottom") = {drawn(2)};
+Physical Surface("top") = {drawn(4)};
+"""}
+MATERIAL = {2: {"Poisson's Ratio": 1 / 3, "Elastic Model": "Plane Stress"},
+            3: {"Poisson's Ratio": 1 / 4, "Elastic Model": "Three-Dimensional"}}
 
 MODELS = ("FE only", "hybrid", "all peridynamic")
 POLICIES = ("On Damage", "Whole Zone")
 
 
-def zone(model, n):
+def zone(model, n, dimension, horizon):
     """Its seeds."""
     if model == "FE only":
         return {}
     if model == "all peridynamic":
         return {"zone": {"Shape": "Everything"}}
-    return {"zone": {"Shape": "Box", "Lower Corner": f"{{-1, {0.45 * n}}}", "Upper Corner": f"{{{0.5 * n}, {0.55 * n}}}",
-                     "Rim": 6.0}}
+    return {"zone": {"Shape": "Box", "Lower Corner": [-1, 0.45 * n, -1][:dimension],
+                     "Upper Corner": [0.5 * n, 0.55 * n, n + 1][:dimension], "Rim": 2.0 * horizon}}
 
 
-def side_for(unknowns, model="FE only", policy="On Damage"):
+def side_for(unknowns, model="FE only", policy="On Damage", dimension=2):
     """How many elements along a side give about so many unknowns."""
     discontinuous = model == "all peridynamic" and policy == "Whole Zone"
-    return round((unknowns / 8) ** 0.5 if discontinuous else (unknowns / 2) ** 0.5 - 1)
+    nodes = unknowns / dimension
+    return round((nodes / 2**dimension) ** (1 / dimension) if discontinuous else nodes ** (1 / dimension) - 1)
 
 
 def square(folder, n, model, policy="On Damage"):
     """The case file; its mesh is made if it is not there."""
+    return body(folder, n, model, policy, 2, 3.0)
+
+
+def cube(folder, n, model, policy="On Damage", horizon=3.0):
+    """The same in three dimensions."""
+    return body(folder, n, model, policy, 3, horizon)
+
+
+def body(folder, n, model, policy, dimension, horizon):
     os.makedirs(folder, exist_ok=True)
-    mesh = os.path.join(folder, f"square-{n}")
+    shape = {2: "square", 3: "cube"}[dimension]
+    mesh = os.path.join(folder, f"{shape}-{n}")
     if not os.path.exists(mesh + ".msh"):
-        make_mesh(mesh, GEOMETRY.format(n=n), "-bin")
-    file = os.path.join(folder, f"{model}, {policy}, {n}.xml".replace(" ", "-").replace(",", ""))
-    held = {component: {"Group": "bottom", "Component": component} for component in "xy"}
+        make_mesh(mesh, GEOMETRY.format(n=n) + GROUPS[dimension], "-bin", dimension=dimension)
+    name = f"{model}, {policy}, {n}" if dimension == 2 else f"cube, {model}, {policy}, {horizon:g}, {n}"
+    file = os.path.join(folder, f"{name}.xml".replace(" ", "-").replace(",", ""))
+    held = {component: {"Group": "bottom", "Component": component} for component in "xyz"[:dimension]}
     write_case(file, {
-        "Title": f"Square, {model}",
+        "Title": f"{shape.capitalize()}, {model}",
+        "Dimension": dimension,
         "Mesh": {"File": os.path.abspath(mesh + ".msh")},
-        "Material": {"Young's Modulus": 30000.0, "Poisson's Ratio": 1 / 3, "Elastic Model": "Plane Stress"},
-        "Peridynamics": {"Horizon": 3.0, "Characteristic Length": 0.2},
-        "Morphing": {"Discontinuous Elements": policy, "Seeds": zone(model, n)},
-        "Boundary Conditions": {"Displacements": held, "Tractions": {"pull": {"Group": "top", "Rate": "{0, 1}"}}},
+        "Material": {"Young's Modulus": 30000.0, **MATERIAL[dimension]},
+        "Peridynamics": {"Horizon": horizon, "Characteristic Length": 0.2},
+        "Morphing": {"Discontinuous Elements": policy, "Seeds": zone(model, n, dimension, horizon)},
+        "Boundary Conditions": {"Displacements": held, "Tractions": {"pull": {"Group": "top", "Rate": [0, 1, 0][:dimension]}}},
         "Loading": {"Increments": 1},
         "Solver": {"Tolerance": 1e-6, "Damage Tolerance": 1e-6},  # equal: one solve, unless its residual falls short
         "Output": {"Reactions": "{bottom}"},

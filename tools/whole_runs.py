@@ -2,15 +2,19 @@
 
 import glob
 import os
+import re
+import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
-from cases import make_mesh, run
-from squares import POLICIES, side_for, square
+from cases import TOOLS, check, make_mesh, run
+from squares import POLICIES, cube, side_for, square
 from tables import print_table
 
-ROOT = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+ROOT = os.path.dirname(TOOLS)
 DOUBLE_NOTCH = os.path.join(ROOT, "inputs", "double_edge_notched_plate", "double_edge_notched_plate.xml")
+EXAMPLES_THAT_BREAK = ["brazilian_disk", "notched_plate_hole_h10", "notched_plate_hole_h15", "notched_beam",
+                       "double_edge_notched_plate"]
 STOPPED_AT_A_LIMIT = 3  # exit status
 
 
@@ -127,5 +131,74 @@ def print_examples(folder, scale):
                 rows)
 
 
+def print_cubes(folder, scale):
+    """A hybrid cube of a hundred thousand and of a million unknowns."""
+    for horizon in (2.0, 3.0):
+        rows, before = [], None
+        for unknowns in (1e5, 1e6):
+            case = cube(folder, side_for(scale * unknowns, dimension=3), "hybrid", horizon=horizon)
+            one = measured(case, folder, 2)
+            last, phases = one.history[-1], one.phases
+            count = int(last["cg_iterations"])
+            growth = f" ({100 * (count / before - 1):+.0f} %)" if before else ""
+            before = count
+            rows.append([last["unknowns"], f"{count} in {last['linear_solves']}{growth}",
+                         *(f"{phases[p]:.1f}" for p in ("read", "search", "assemble", "preconditioner", "CG")),
+                         f"{one.solving:.1f}", f"{one.wall:.1f}", f"{2 * one.memory / 1024:.2f}"])
+        print_table(f"Hybrid cubes, 5 % of the volume peridynamic, horizon {horizon:g} elements, elastic, 2 ranks; wall seconds. "
+                    "Targets for a million unknowns: 60 s of set-up and solve, 8 GiB, at most 20 % more iterations.",
+                    ["unknowns", "CG iterations", "read", "search", "assemble", "preconditioner", "CG", "set-up and solve",
+                     "whole run", "GiB, both ranks"], rows)
+
+
+def print_operators(folder, scale):
+    """Memory of the operator in its two forms."""
+    rows = []
+    for policy, unknowns in zip(POLICIES, (1e4, 1.2e4)):
+        n = side_for(scale * unknowns, "all peridynamic", policy, dimension=3)
+        case = cube(folder, n, "all peridynamic", policy)
+        told = {form: operator_of(case, form) for form in ("CRS", "Matrix-Free")}
+        unknowns, crs, free = told["CRS"][0], told["CRS"][1], told["Matrix-Free"][1]
+        rows.append([policy, f"{n}^3", unknowns, crs, free, f"1/{float(crs) / float(free):.1f}"])
+    print_table("Memory of the operator, all-peridynamic cubes, horizon 3 elements. Target: a tenth.",
+                ["discontinuous elements", "elements", "unknowns", "CRS [MB]", "matrix-free [MB]", "ratio"], rows)
+
+
+def operator_of(case, form):
+    """Unknowns, and MB of the operator, as perimorph check tells."""
+    told = check(case, [f"Solver/Operator={form}"])
+    return re.search(r"(\d+) unknowns", told).group(1), re.search(r"(\d+) MB for the operator", told).group(1)
+
+
+def print_three_dimensions(folder, scale):
+    print_operators(folder, scale)
+    print_cubes(folder, scale)
+
+
+def print_tolerance(folder, scale):
+    """Whether tighter solutions break other bonds, up to the unstable jump."""
+    limit = "Loading/Maximum Damage Iterations=100"
+    rows = []
+    for name in EXAMPLES_THAT_BREAK:
+        case = glob.glob(os.path.join(ROOT, "inputs", "*", name + ".xml"))[0]
+        outputs = [os.path.join(folder, f"{name}-{kind}") for kind in ("default", "tight")]
+        print(f"{name}, twice", file=sys.stderr)
+        loose = run(case, outputs[0], 2, settings=[limit], ends=(0, STOPPED_AT_A_LIMIT))
+        resolved = ElementTree.parse(os.path.join(outputs[0], "resolved.xml"))
+        tolerance = float(resolved.find(".//Parameter[@name='Damage Tolerance']").get("value"))
+        tight = run(case, outputs[1], 2, settings=[limit, f"Solver/Damage Tolerance={tolerance / 100}"],
+                    ends=(0, STOPPED_AT_A_LIMIT))
+        compared = subprocess.run([os.path.join(TOOLS, "compare-runs"), *outputs], check=False,
+                                  stdout=subprocess.PIPE, encoding="utf-8")
+        counts = [str(sum(int(row["cg_iterations"]) for row in one.history)) for one in (loose, tight)]
+        rows.append([name, f"{tolerance:g}", loose.history[-1]["increment"], tight.history[-1]["increment"],
+                     loose.history[-1]["broken_bonds"], "the same" if compared.returncode == 0 else "OTHER", *counts])
+    print_table("Bonds broken with the default Damage Tolerance and with one 100 times tighter, up to the first increment "
+                "that takes more than 100 solves, 2 ranks.",
+                ["case", "Damage Tolerance", "last increment", "and tighter", "broken bonds", "and tighter",
+                 "CG iterations", "and tighter"], rows)
+
+
 TABLES = {"iterations": print_iterations, "zone": print_zone, "ranks": print_ranks, "notch": print_notch,
-          "examples": print_examples}
+          "examples": print_examples, "tolerance": print_tolerance,
+          "three_dimensions": print_three_dimensions}

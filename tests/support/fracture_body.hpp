@@ -34,6 +34,7 @@ struct SpecimenIn {
       dim == 2 ? materials::ElasticModel::plane_stress : materials::ElasticModel::three_dimensional;
   double breaking_fraction = 1.;   ///< share of the overstretched bonds that break between two solves
   std::vector<double> costs = {};  ///< of elements, by which they are parted among the ranks; equal if there are none
+  int points_per_direction = 2;
 };
 using Specimen = SpecimenIn<2>;
 
@@ -67,6 +68,7 @@ fracture::BodyOptions make_options(const SpecimenIn<dim>& specimen) {
     options.short_range_cut_off = 0.6 * specimen.horizon;
   }
   options.breaking_fraction = specimen.breaking_fraction;
+  options.points_per_direction = specimen.points_per_direction;
   return options;
 }
 

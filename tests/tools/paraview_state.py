@@ -1,6 +1,6 @@
 """tools/paraview: the state it writes, loaded again by ParaView (paraview_inside.py).
 
-    paraview_state.py PERIMORPH RUN
+    paraview_state.py PERIMORPH RUNS
 """
 
 import ast
@@ -15,7 +15,7 @@ import numpy
 from PIL import Image
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-RUN = pathlib.Path(sys.argv[2]) / "out"
+RUN = pathlib.Path(sys.argv[2]) / "small_plate/out"
 del sys.argv[1:]
 
 

@@ -1,6 +1,6 @@
 """tools/render: stills and films.
 
-    pictures.py PERIMORPH RUN
+    pictures.py PERIMORPH RUNS
 """
 
 import json
@@ -15,7 +15,7 @@ import numpy
 from PIL import Image
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-RUN = pathlib.Path(sys.argv[2]) / "out"
+RUN, BLOCK = (pathlib.Path(sys.argv[2]) / name / "out" for name in ["small_plate", "small_block"])
 del sys.argv[1:]
 
 
@@ -31,8 +31,8 @@ class Render(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def render(self, *options):
-        command = [TOOLS / "render", RUN, *options]
+    def render(self, *options, run=RUN):
+        command = [TOOLS / "render", run, *options]
         return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=100)
 
     @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("xvfb-run"), "needs ParaView")
@@ -45,6 +45,28 @@ class Render(unittest.TestCase):
         dgfe = numpy.array([194, 51, 56])
         self.assertLess(share_of(dgfe, self.folder / names[1]), 0.02)  # the legend only: nothing is broken yet
         self.assertGreater(share_of(dgfe, self.folder / names[3]), 0.1)
+
+    def picture(self, name, *options):
+        """Of the block; its pixels without the legend and the caption."""
+        drawn = self.render(*options, "-o", self.folder / name, run=BLOCK)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        return numpy.asarray(Image.open(self.folder / name).convert("RGB")).astype(int)[100:, :-300]
+
+    @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("xvfb-run"), "needs ParaView")
+    def test_a_slice_cuts_away_what_lies_before_it(self):
+        whole, half, rest = (self.picture(f"{place}.png", *options) for place, options in
+                             [("whole", []), ("half", ["--slice", "x=8"]), ("rest", ["--slice", "x=0.1"])])
+        filled = [(pixels.min(axis=2) < 250).mean() for pixels in (whole, half, rest)]
+        self.assertGreater(filled[0], 1.2 * filled[1])
+        self.assertGreater(filled[1], 1.2 * filled[2])
+        self.assertGreater(filled[2], 0.02)
+
+    @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("xvfb-run"), "needs ParaView")
+    def test_the_broken_surface_is_seen_through_the_body(self):
+        red = lambda pixels: (pixels[:, :, 0] > 2 * pixels[:, :, 1]) & (pixels[:, :, 0] > 60)
+        before, after = (red(self.picture(f"{step}.png", "--step", step, "--field", "broken_surface")) for step in ["1", "last"])
+        self.assertEqual(before.sum(), 0)
+        self.assertGreater(after.mean(), 0.02)
 
     @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("ffprobe"), "needs ParaView and ffmpeg")
     def test_a_film_has_a_frame_for_each_step(self):
@@ -64,6 +86,7 @@ class Render(unittest.TestCase):
             (["--field", "damge"], 'did you mean "damage"?'),
             (["--step", "99"], "not written; nearest are 7, 8, 9, 10"),
             (["--slice", "z=1"], "--slice: only for three-dimensional runs"),
+            (["--field", "broken_surfac"], 'did you mean "broken_surface"?'),
             (["--warp", "much"], '--warp much: expected a factor, or "auto"'),
         ]:
             drawn = self.render(*options)

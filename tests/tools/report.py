@@ -1,6 +1,6 @@
 """tools/report and tools/plot-history on a finished run; and what they share: events, log, parameters.
 
-    report.py PERIMORPH RUN
+    report.py PERIMORPH RUNS
 """
 
 import html.parser
@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-RUN = pathlib.Path(sys.argv[2]) / "out"
+PERIMORPH, RUN = sys.argv[1], pathlib.Path(sys.argv[2]) / "small_plate/out"
 del sys.argv[1:]
 sys.path.insert(0, str(TOOLS))
 import runs
@@ -84,6 +84,15 @@ class Report(unittest.TestCase):
         self.assertIn("has reached increment 2 of 10", page.text)
         self.assertIn("No bond has broken.", page.text)
         self.assertIn("The run is not over.", page.text)
+
+    def test_tells_the_warnings_of_the_run(self):
+        """Pressed together, the faces of the crack overlap."""
+        pressed = self.folder / "pressed"
+        subprocess.run([PERIMORPH, "run", RUN.parent / "small_plate.xml", "--output", pressed, "--quiet",
+                        "--set", "Loading/Increments=1", "--set", "Boundary Conditions/Displacements/pull/Rate=-0.1"],
+                       check=True, capture_output=True, timeout=60)
+        page = self.page("--no-pictures", run=pressed)
+        self.assertRegex(page.text, r"Warnings\s*warning: crack faces overlap, by [\d.e-]+ at \(")
 
     def test_what_is_no_run_is_refused(self):
         for run, piece in [(self.folder / "absent", "no such directory"), (self.folder, "history.csv")]:

@@ -1,9 +1,10 @@
 """Spread files: what the program writes, tools/join, and the tools that draw them.
 
-    spread.py PERIMORPH RUN MPIEXEC
+    spread.py PERIMORPH RUNS MPIEXEC
 """
 
 import ast
+import os
 import pathlib
 import shutil
 import subprocess
@@ -103,6 +104,21 @@ class Files(Spread):
         self.run_until(restart.INCREMENTS, *SPREAD, *restart.EVERY, "--restart", ranks=2)
         times = [time for file in self.joined() for time in file.times]
         self.assertEqual(times, list(range(1, restart.INCREMENTS + 1)))
+
+    def test_a_joined_file_counts_until_a_rank_writes_again(self):
+        self.run_until(13, *SPREAD, ranks=2)
+        shown = lambda: [time for file in self.joined() for time in file.times]
+        used = lambda: {len(file.files) for file in self.joined()}
+        self.assertEqual(self.tool("join", self.output).returncode, 0)
+        self.assertEqual((shown()[-1], used()), (13, {1}))
+        self.run_until(restart.INCREMENTS, *SPREAD, "--restart", ranks=2)
+        self.assertEqual(shown(), list(range(1, restart.INCREMENTS + 1)))
+        self.assertIn(2, used())
+        self.assertEqual(self.tool("join", self.output).returncode, 0)
+        self.assertEqual((shown()[-1], used()), (restart.INCREMENTS, {1}))
+        file = self.joined()[-1].files[0]
+        os.utime(file + ".2.1")  # as if the run went on in this very file
+        self.assertEqual((shown()[-1], used()), (restart.INCREMENTS, {1, 2}))
 
     def test_a_new_run_leaves_none_of_an_older_one(self):
         self.run_until(restart.INCREMENTS, *SPREAD, ranks=2)

@@ -1,6 +1,6 @@
 """The README's "Your own part in ten minutes", done as it is written: its files, its changes, its commands.
 
-    tutorial.py PERIMORPH RUN
+    tutorial.py PERIMORPH RUNS
 """
 
 import copy
@@ -15,6 +15,9 @@ import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
+
+import numpy
+from PIL import Image
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PERIMORPH = sys.argv[1]
@@ -47,7 +50,7 @@ class Tutorial(unittest.TestCase):
         words = shlex.split(command)
         if words[0] == "tools/run":  # what is built is here; it must not build another
             words = ["build/drivers/perimorph", "run", *words[1:]]
-        done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, timeout=200)
+        done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, timeout=500)
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}\n{done.stderr}")
         return done.stdout
 
@@ -62,6 +65,24 @@ class Tutorial(unittest.TestCase):
         self.assertEqual(len(places), 2, told)
         for place, wanted in zip(places, [(13, 20), (23, 20)]):  # centroids of elements of size 1
             self.assertLess(math.dist(place, wanted), 1.5)
+
+    def assert_gmshs_window_shows_the_part(self, command):
+        """gmsh draws into a file what its window shows, and closes it."""
+        (self.folder / "print.geo").write_text('Print "window.png";\nExit;\n')
+        self.run_command(f"xvfb-run --auto-servernum {command} print.geo")
+        shown = numpy.asarray(Image.open(self.folder / "window.png").convert("RGB")).astype(int)
+        curves = (shown[:, :, 2] > shown[:, :, 0] + 80) & (shown[:, :, 0] < 120)  # blue
+        rows, columns = curves.nonzero()
+        self.assertAlmostEqual((rows.max() - rows.min()) / (columns.max() - columns.min()), 40 / 30, delta=0.05)
+
+    def assert_an_editor_takes_the_case(self, command):
+        subprocess.run(command, shell=True, cwd=self.folder, check=True, timeout=60)
+        self.run_command("xmllint --noout --relaxng perimorph.rng inputs/bracket/bracket.xml")
+
+    def steps(self, run):
+        with open(self.folder / run / "history.csv", newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        return rows, next(n for n, row in enumerate(rows) if int(row["broken_bonds"]) > 0)
 
     def test_runs_as_it_is_written(self):
         text = tutorial()
@@ -85,10 +106,8 @@ class Tutorial(unittest.TestCase):
 
         stretch = re.search(r"critical\s+stretch\s+s_crit\s+=\s+([\d.]+)", told[0]).group(1)
         self.assertIn(f"{float(stretch):.4f}", text)  # what the tutorial says about the results
-        with open(self.folder / "results/bracket/history.csv", newline="") as stream:
-            rows = list(csv.DictReader(stream))
+        rows, first = self.steps("results/bracket")
         forces = [float(row["reaction_top_y"]) for row in rows]
-        first = next(n for n, row in enumerate(rows) if int(row["broken_bonds"]) > 0)
         self.assertIn(f"in step {first + 1}", text)
         before, after = map(float, re.search(r"from\s+(\d+)\s+to\s+(\d+)\s+N", text).groups())
         self.assertAlmostEqual(max(forces) / before, 1, delta=0.02)
@@ -96,6 +115,16 @@ class Tutorial(unittest.TestCase):
         self.assertTrue((self.folder / "results/bracket/history.png").exists())
         if shutil.which("pvbatch"):
             self.assertTrue((self.folder / "results/bracket/report.html").exists())
+
+        spans = re.findall(r"`([^`\n]+)`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
+        window, schema, setting = (span for span in spans if span.startswith(("gmsh ", "build/", "tools/", "--set ")))
+        if shutil.which("xvfb-run"):
+            self.assert_gmshs_window_shows_the_part(window)
+        self.assert_an_editor_takes_the_case(schema)
+        self.run_command(f"{commands[2]} {setting} --output results/whole")
+        other_rows, other_first = self.steps("results/whole")
+        self.assertEqual(other_first, first)
+        self.assertAlmostEqual(int(other_rows[-1]["dgfe_elements"]) / int(rows[-1]["dgfe_elements"]), 2, delta=0.2)
 
 
 if __name__ == "__main__":

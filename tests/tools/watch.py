@@ -1,10 +1,12 @@
-"""tools/watch: what it shows, and what it does not give away.
+"""tools/watch: what it shows, what it does not give away, and that the run goes first.
 
-    watch.py PERIMORPH RUN
+    watch.py PERIMORPH RUNS
 """
 
 import csv
 import http.client
+import importlib.machinery
+import importlib.util
 import json
 import os
 import pathlib
@@ -14,13 +16,27 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import urllib.error
 import urllib.request
 
+import netCDF4
+import numpy
+
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-RUN = pathlib.Path(sys.argv[2]) / "out"
+PERIMORPH, RUNS = sys.argv[1], pathlib.Path(sys.argv[2])
+RUN = RUNS / "small_plate/out"
 del sys.argv[1:]
+
+
+def functions_of_watch():
+    """The tool as a module, without its server."""
+    sys.path.insert(0, str(TOOLS))
+    loader = importlib.machinery.SourceFileLoader("watch_tool", str(TOOLS / "watch"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
 
 
 class Watch(unittest.TestCase):
@@ -42,8 +58,8 @@ class Watch(unittest.TestCase):
         self.server = server
         return re.match(r"http://[^/]*", server.stdout.readline()).group()
 
-    def fill(self):
-        shutil.copytree(RUN, self.run_folder, dirs_exist_ok=True)
+    def fill(self, run=RUN):
+        shutil.copytree(run, self.run_folder, dirs_exist_ok=True)
 
     def read(self, url):
         with urllib.request.urlopen(url, timeout=60) as answer:
@@ -84,6 +100,18 @@ class Watch(unittest.TestCase):
         self.assertEqual(state["profile"][-1][0], "total")
         self.assertTrue(state["over"])
 
+    def test_draws_three_dimensional_bodies(self):
+        self.fill(RUNS / "small_block/out")
+        watch = functions_of_watch()
+        file = watch.latest_step(str(self.run_folder))
+        faces, elements = watch.outer_faces(file.connectivity())
+        places = numpy.stack(file.coordinates(), axis=-1)
+        on_box = lambda at: (at.max(axis=0) - at.min(axis=0) == 0) & numpy.isin(at[0], [[0, 16, 4, -8, 8]]).any()
+        outside = [at for at in places[faces] if on_box(at).any()]
+        self.assertGreaterEqual(len(outside), 2 * 64 + 4 * 16)  # of 8 x 8 x 2 cubes
+        self.assertEqual(elements.max(), 127)
+        self.assertEqual(self.read(self.watch() + "/picture/damage")[:4], b"\x89PNG")
+
     def test_a_file_that_is_just_being_made_does_not_take_the_picture_away(self):
         self.fill()
         (self.run_folder / "small_plate.e-s0099").write_bytes(b"CDF")
@@ -98,13 +126,62 @@ class Watch(unittest.TestCase):
             self.assertEqual(self.status(address, path), 404, path)
         self.assertEqual(self.status(address, "/", method="POST"), 501)
 
-    def test_leaves_the_folder_as_it_is(self):
+    def test_leaves_the_folder_as_it_is_and_holds_nothing_open(self):
         self.fill()
         before = {file: file.stat().st_mtime_ns for file in self.run_folder.iterdir()}
         address = self.watch()
-        for path in ["/", "/state.json", "/picture/class"]:
+        for path in ["/", "/state.json", "/picture/class", "/picture/damage"]:
             self.read(address + path)
         self.assertEqual({file: file.stat().st_mtime_ns for file in self.run_folder.iterdir()}, before)
+        open_files = [os.readlink(file) for file in pathlib.Path(f"/proc/{self.server.pid}/fd").iterdir() if file.is_symlink()]
+        self.assertGreater(len(open_files), 2)
+        self.assertEqual([file for file in open_files if file.startswith(str(self.run_folder))], [])
+
+    def test_has_low_priority(self):
+        self.watch()
+        self.assertGreaterEqual(os.getpriority(os.PRIO_PROCESS, self.server.pid), 10)
+
+    def test_works_for_a_small_share_of_the_time_however_often_it_is_asked(self):
+        watch, worked = functions_of_watch(), []
+
+        def work(_):
+            begin = time.thread_time()
+            while time.thread_time() < begin + 0.02:
+                pass
+            worked.append(time.thread_time() - begin)
+            return len(worked)
+
+        rested, begin = watch.Rested(work), time.monotonic()
+        while time.monotonic() < begin + 2:
+            answer = rested("run")
+            self.assertEqual(answer, len(worked))  # the last one again
+        self.assertGreater(len(worked), 1)
+        self.assertLessEqual(sum(worked[:-1]), 1.05 * watch.SHARE * 2)  # the last one is still being made up for
+
+    def test_a_run_that_is_watched_computes_the_same_bits(self):
+        watch = functions_of_watch()
+        case = self.run_folder.parent / "small_plate.xml"
+        shutil.copy(RUN / "resolved.xml", case)
+        shutil.copy(RUN.parent / "small_plate.geo", case.parent)
+        run = subprocess.Popen([PERIMORPH, "run", case, "--output", self.run_folder, "--quiet"])
+        n_drawn = 0
+        while run.poll() is None:  # without rest: more than the page asks for
+            watch.state_of(str(self.run_folder))
+            n_drawn += watch.picture_of(str(self.run_folder), "damage") is not None
+        self.assertEqual(run.returncode, 0)
+        self.assertGreater(n_drawn, 0)
+        self.assertEqual(*map(self.outcome, [RUN, self.run_folder]))
+
+    def outcome(self, folder):
+        """History and fields, without clocks."""
+        with open(folder / "history.csv", newline="") as stream:
+            rows = [{name: value for name, value in row.items() if name != "wall_seconds"} for row in csv.DictReader(stream)]
+        fields = []
+        for part in sorted(folder.glob("*.e*")):
+            with netCDF4.Dataset(part) as file:
+                fields.append({name: file[name][:].data.tobytes() for name in file.variables
+                               if name not in ("qa_records", "info_records", "vals_glo_var")})
+        return rows, fields
 
     def test_listens_on_this_machine_only_unless_told(self):
         port = int(self.watch().rpartition(":")[2])
@@ -138,9 +215,9 @@ class Watch(unittest.TestCase):
         address = self.watch()
         with tempfile.TemporaryDirectory() as profile:
             page = subprocess.run(
-                ["timeout", "--kill-after=5", "50", "chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
+                ["timeout", "--kill-after=5", "100", "chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
                  "--virtual-time-budget=3000", "--dump-dom", address],
-                capture_output=True, text=True, timeout=60).stdout
+                capture_output=True, text=True, timeout=120).stdout
         self.assertIn("Increment 10 of 10, done.", page)
         curve = re.search(r'<svg id="force".*?<polyline points="([^"]*)"', page, re.DOTALL).group(1)
         self.assertEqual(len(curve.split()), 10)
@@ -148,7 +225,7 @@ class Watch(unittest.TestCase):
         with open(RUN / "history.csv", newline="") as stream:
             forces = [float(row["reaction_top_y"]) for row in csv.DictReader(stream)]
         self.assertEqual(heights.index(min(heights)), forces.index(max(forces)))  # y points down
-        self.assertIn('src="picture/damage', page)
+        self.assertIn('src="blob:http', page)
         self.assertIn("<th>total</th>", page)
 
 

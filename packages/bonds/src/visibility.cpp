@@ -41,13 +41,15 @@ bool meets(const mesh::CrackFacet<dim>& facet, const base::Point<dim>& x, const 
   return t >= -slack && t <= 1. + slack && s.minCoeff() >= -slack && s.sum() <= 1. + slack;
 }
 
-/// Positive on one side of the facet's line or plane, negative on the other, proportional to the distance.
+/// To the facet's line or plane, of any length.
 template <int dim>
-double side(const mesh::CrackFacet<dim>& facet, const base::Point<dim>& x) {
-  Eigen::Matrix<double, dim, dim> edges;
-  edges.col(0) = x - facet[0];
-  for (int i = 1; i < dim; ++i) edges.col(i) = facet[i] - facet[0];
-  return edges.determinant();
+base::Point<dim> normal(const mesh::CrackFacet<dim>& facet) {
+  const base::Point<dim> edge = facet[1] - facet[0];
+  if constexpr (dim == 2) {
+    return {-edge[1], edge[0]};
+  } else {
+    return edge.cross(facet[2] - facet[0]);
+  }
 }
 
 }  // namespace
@@ -89,10 +91,13 @@ std::vector<mesh::CrackFacet<dim>> Visibility<dim>::among(const std::vector<Face
                                                           const std::vector<base::Point<dim>>& points) {
   std::vector<Facet> found;
   for (const auto& facet : facets) {
+    // Heights above the facet's line or plane, times the length of its normal.
+    const base::Point<dim> up = normal<dim>(facet);
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (const auto& x : points) {
-      lowest = std::min(lowest, side<dim>(facet, x));
-      highest = std::max(highest, side<dim>(facet, x));
+      const double height = up.dot(x - facet[0]);
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
     }
     const double touching = slack * (highest - lowest);  // as in meets()
     if (lowest <= touching && highest >= -touching) found.push_back(facet);

@@ -39,16 +39,14 @@ class Advice {
 
   void check_resolution() {
     const double length = input_.characteristic_length / size_, horizon = input_.horizon / size_;
-    if (breaks() && length < least_length) {
+    if (breaks() && length < least_length && input_.dimension == 2) {  // not measured in three
       const double resistance = lattice_resistance(input_.discontinuous, input_.peridynamic_stiffness, length);
       add("/Peridynamics/Characteristic Length",
           "{:.4g} is {:.2f} of an element; the mesh then holds cracks up, to {:.2f} of the load of fracture "
           "mechanics{}. "
           "Better is a third of an element, {:.3g}, with a horizon of four",
           input_.characteristic_length, length, resistance,
-          input_.calibration == Calibration::analytic
-              ? ""
-              : " (for which the critical stretch makes up), and they move in jumps",
+          is_calibrated_to_mesh(input_) ? " (for which the critical stretch makes up), and they move in jumps" : "",
           size_ / 3.);
     }
     if (horizon < least_horizon) {

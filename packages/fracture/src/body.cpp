@@ -53,7 +53,7 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       problem_(problem),
       options_(std::move(options)),
       profile_(profile),
-      points_(mesh),
+      points_(mesh, options_.points_per_direction),
       alpha_(mesh, points_, options_.profile),
       bonds_(mesh, points_, mesh::active_elements(mesh), problem.micromodulus, problem.pre_cracks),
       elasticity_(problem.e0, options_.peridynamic_stiffness),
@@ -118,19 +118,30 @@ void Body<dim>::assemble() {
   stiffness_ = Teuchos::rcp(new operators::MatrixFreeStiffness<dim>(model(), supports));
   const bool is_short_range = options_.preconditioner_matrix == PreconditionerMatrix::short_range;
   const bool is_crs = options_.operator_form == OperatorForm::crs;
+  Teuchos::RCP<const operators::PointBasis<dim>> basis;
   if (is_short_range) {
     const auto selection = operators::short_range(model(), *comm_, options_.short_range_cut_off);
-    short_range_ = std::make_unique<Matrix>(model(), supports, selection);
+    basis = Teuchos::rcp(new operators::PointBasis<dim>(model(), supports, discontinuous_));
+    short_range_ = std::make_unique<Matrix>(model(), supports, selection, basis);
   }
   if (is_crs || !is_short_range) matrix_ = std::make_unique<Matrix>(model(), supports);
 
   std::vector<Point<dim>> coordinates;
-  for (int n = 0; n < dofs_->n_owned_nodes(); ++n) coordinates.push_back(mesh_.coordinates[dofs_->reference_node(n)]);
+  if (basis.is_null()) {
+    for (int n = 0; n < dofs_->n_owned_nodes(); ++n) coordinates.push_back(mesh_.coordinates[dofs_->reference_node(n)]);
+  } else {
+    coordinates = basis->coordinates();
+  }
   const auto preconditioner_matrix = (is_short_range ? short_range_ : matrix_)->matrix();
   Teuchos::RCP<solvers::Operator> linear_operator = stiffness_;
   if (is_crs) linear_operator = matrix_->linear_operator();
   solver_.set_operator(linear_operator, preconditioner_matrix,
-                       solvers::rigid_body_modes<dim>(*preconditioner_matrix, coordinates));
+                       solvers::rigid_body_modes<dim>(*preconditioner_matrix, coordinates), basis);
+}
+
+template <int dim>
+std::size_t Body<dim>::bytes_of_operator() const {
+  return options_.operator_form == OperatorForm::crs ? matrix_->bytes() : stiffness_->bytes();
 }
 
 template <int dim>
@@ -345,6 +356,7 @@ void Body<dim>::take_out(const std::vector<std::size_t>& broken) {
   stiffness_->subtract(broken);
   if (matrix_) matrix_->subtract(broken);
   if (short_range_) short_range_->subtract(broken);
+  if (!broken.empty()) solver_.note_change();
 }
 
 template <int dim>
@@ -530,6 +542,7 @@ BodyOptions body_options(const Case& input) {
   options.preconditioner_matrix = input.preconditioner_matrix;
   options.short_range_cut_off = input.short_range_cut_off;
   options.solver = {input.max_cg_iterations, input.renewal_cost, input.belos, input.muelu};
+  options.points_per_direction = input.points_per_direction;
   return options;
 }
 

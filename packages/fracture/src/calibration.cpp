@@ -62,10 +62,14 @@ double element_size(const base::Comm& comm, const mesh::Mesh<dim>& body, const P
   return static_cast<float>(sums[0] > 0. ? sums[1] / sums[0] : sums[3] / sums[2]);
 }
 
+bool is_calibrated_to_mesh(const Case& input) {
+  const bool is_measured = input.dimension == 2 && input.points_per_direction == 2;
+  return is_measured && input.calibration == Calibration::mesh_consistent;
+}
+
 template <int dim>
 bool calibrate_to_mesh(Problem<dim>& problem, const Case& input, double element_size) {
-  const bool is_measured = dim == 2;
-  if (!is_measured || input.calibration == Calibration::analytic || std::isinf(problem.critical_stretch)) return false;
+  if (!is_calibrated_to_mesh(input) || std::isinf(problem.critical_stretch)) return false;
   const double resistance =
       lattice_resistance(input.discontinuous, input.peridynamic_stiffness, input.characteristic_length / element_size);
   if (input.critical_stretch) {

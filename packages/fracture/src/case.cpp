@@ -77,6 +77,7 @@ void take_material(Case& result, const ParameterList& list) {
   const ParameterList& peridynamics = list.sublist("Peridynamics");
   result.horizon = peridynamics.get<double>("Horizon");
   result.characteristic_length = peridynamics.get<double>("Characteristic Length");
+  result.points_per_direction = peridynamics.get<int>("Points per Direction");
 }
 
 constexpr double default_share = 0.8;  // of automatic seeds; the schema names it

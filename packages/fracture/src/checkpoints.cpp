@@ -152,7 +152,7 @@ io::Checkpoint Checkpoints<dim>::read_newest() const {
     try {
       return folder_.read(*newest);
     } catch (const base::UserError& error) {
-      log_->warn("{}", error.what());
+      log_->warn("warning: {}", error.what());
       trouble = error.what();
     }
   }

@@ -402,8 +402,9 @@ void Results<dim>::warn_of_overlap() {
   constexpr double of_horizon = 1e-3;
   if (has_warned_ || overlap_.depth <= of_horizon * horizon_) return;
   has_warned_ = true;
-  voice_.log->warn("       crack faces overlap, by {:.3g} at ({:.6g}): there is no contact; see overlap in history.csv",
-                   overlap_.depth, fmt::join(overlap_.place.begin(), overlap_.place.end(), ", "));
+  voice_.log->warn(
+      "warning: crack faces overlap, by {:.3g} at ({:.6g}): there is no contact; see overlap in history.csv",
+      overlap_.depth, fmt::join(overlap_.place.begin(), overlap_.place.end(), ", "));
 }
 
 template <int dim>

@@ -93,7 +93,7 @@ void save_what_is_left(Checkpoints<dim>& checkpoints, spdlog::logger& log) {
   try {
     checkpoints.write();
   } catch (const base::ComputationError& error) {
-    log.warn("{}", error.what());
+    log.warn("warning: {}", error.what());
   }
 }
 

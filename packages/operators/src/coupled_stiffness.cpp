@@ -11,11 +11,15 @@ namespace perimorph::operators {
 
 template <int dim>
 CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const Supports<dim>& supports,
-                                        const BondSelection& selection)
-    : model_(model), selection_(selection), has_selected_bonds_(model.bonds.n_pairs(), 0), fixed_(supports.fixed) {
+                                        const BondSelection& selection, Teuchos::RCP<const PointBasis<dim>> basis)
+    : model_(model),
+      selection_(selection),
+      basis_(std::move(basis)),
+      has_selected_bonds_(model.bonds.n_pairs(), 0),
+      fixed_(supports.fixed) {
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1) && !has_selected_bonds_[p]; ++b) {
-      has_selected_bonds_[p] = is_selected(model.bonds.pair(p), b);
+      has_selected_bonds_[p] = !model.bonds.broken(b) && is_selected(model.bonds.pair(p), b);
     }
   }
   find_pattern();
@@ -32,6 +36,39 @@ Teuchos::RCP<Tpetra::Operator<double>> CoupledStiffness<dim>::linear_operator() 
   return matrix_;
 }
 
+template <int dim>
+std::size_t CoupledStiffness<dim>::bytes() const {
+  const auto local = matrix_->getLocalMatrixHost();
+  return local.nnz() * (sizeof(double) + sizeof(int)) + (local.numRows() + std::size_t{1}) * sizeof(std::size_t);
+}
+
+/// By node, the nodes that bonds couple it to because one of their ends is an unknown. Owned nodes.
+template <int dim>
+std::vector<std::vector<int>> CoupledStiffness<dim>::nodes_bonded_by_points() const {
+  std::vector<std::vector<int>> bonded(model_.dofs.n_owned_nodes());
+  const auto nodes_at = [&](int element, int point) {
+    const int* nodes = model_.dofs.nodes_of(element);
+    return is_by_points(element) ? std::pair{nodes + point, nodes + point + 1}
+                                 : std::pair{nodes, nodes + model_.mesh.n_corners(element)};
+  };
+  for (int p = 0; p < model_.bonds.n_pairs(); ++p) {
+    const auto [first, second] = model_.bonds.pair(p);
+    if (!has_selected_bonds_[p] || !(is_by_points(first) || is_by_points(second))) continue;
+    for (auto b = model_.bonds.first_bond(p); b < model_.bonds.first_bond(p + 1); ++b) {
+      if (model_.bonds.broken(b) || !is_selected(model_.bonds.pair(p), b)) continue;
+      const auto [a, end_a] = nodes_at(first, model_.bonds.first_end(b));
+      const auto [c, end_c] = nodes_at(second, model_.bonds.second_end(b));
+      for (const int* i = a; i < end_a; ++i) {
+        for (const int* j = c; j < end_c; ++j) {
+          if (*i < model_.dofs.n_owned_nodes()) bonded[*i].push_back(*j);
+          if (*j < model_.dofs.n_owned_nodes()) bonded[*j].push_back(*i);
+        }
+      }
+    }
+  }
+  return bonded;
+}
+
 /// A node is coupled to all nodes of its elements and of the elements that these have bonds with.
 template <int dim>
 void CoupledStiffness<dim>::find_pattern() {
@@ -44,23 +81,27 @@ void CoupledStiffness<dim>::find_pattern() {
       if (node < dofs.n_owned_nodes()) elements_of[node].push_back(e);
     }
   }
+  const auto bonded_by_points = nodes_bonded_by_points();
   std::vector<int> seen_by(dofs.n_nodes(), -1);
   first_.push_back(0);
   for (int row = 0; row < dofs.n_owned_nodes(); ++row) {
-    const auto include = [&](int element) {
-      for (int k = 0; k < mesh.n_corners(element); ++k) {
-        const int node = dofs.nodes_of(element)[k];
-        if (seen_by[node] == row) continue;
-        seen_by[node] = row;
-        columns_.push_back(node);
-      }
+    const auto include = [&](int node) {
+      if (seen_by[node] == row) return;
+      seen_by[node] = row;
+      columns_.push_back(node);
     };
+    const auto include_all = [&](int element) {
+      for (int k = 0; k < mesh.n_corners(element); ++k) include(dofs.nodes_of(element)[k]);
+    };
+    include(row);
+    for (const int node : bonded_by_points[row]) include(node);
     for (const int e : elements_of[row]) {
-      include(e);
+      if (is_by_points(e)) continue;
+      include_all(e);
       for (const int p : model_.bonds.pairs_of(e)) {
-        if (!has_selected_bonds_[p]) continue;
         const auto [first, second] = model_.bonds.pair(p);
-        include(first == e ? second : first);
+        const int other = first == e ? second : first;
+        if (has_selected_bonds_[p] && !is_by_points(other)) include_all(other);
       }
     }
     std::sort(columns_.begin() + static_cast<std::ptrdiff_t>(first_.back()), columns_.end());
@@ -99,6 +140,7 @@ void CoupledStiffness<dim>::make_matrix() {
 
 template <int dim>
 void CoupledStiffness<dim>::add_block(int row, int column, const Block& block) {
+  if (block.isZero(0.)) return;  // perhaps no entry either
   const int* begin = columns_.data() + first_[row];
   const int* end = columns_.data() + first_[row + 1];
   const std::size_t width = static_cast<std::size_t>(end - begin) * dim;
@@ -139,8 +181,7 @@ void CoupledStiffness<dim>::add_at_points(int element, const Block* at_points) {
     for (int l = 0; l < model_.mesh.n_corners(element); ++l) {
       Block block = Block::Zero();
       for (int q = 0; q < model_.points.count(element); ++q) {
-        const auto& shape = model_.points.shape(element, q);
-        block += shape[k] * shape[l] * at_points[q];
+        block += shape(element, q, k) * shape(element, q, l) * at_points[q];
       }
       add_block(nodes[k], nodes[l], block);
     }
@@ -159,11 +200,11 @@ void CoupledStiffness<dim>::add_between(const bonds::ElementPair& pair, const st
     std::array<Block, elements::max_points> half;  // between N_b, for corner l
     for (int qa = 0; qa < n_qa; ++qa) {
       half[qa].setZero();
-      for (int qb = 0; qb < n_qb; ++qb) half[qa] += model_.points.shape(b, qb)[l] * between[qa * n_qb + qb];
+      for (int qb = 0; qb < n_qb; ++qb) half[qa] += shape(b, qb, l) * between[qa * n_qb + qb];
     }
     for (int k = 0; k < model_.mesh.n_corners(a); ++k) {
       Block block = Block::Zero();
-      for (int qa = 0; qa < n_qa; ++qa) block -= model_.points.shape(a, qa)[k] * half[qa];
+      for (int qa = 0; qa < n_qa; ++qa) block -= shape(a, qa, k) * half[qa];
       if (nodes_a[k] < model_.dofs.n_owned_nodes()) add_block(nodes_a[k], nodes_b[l], block);
       if (nodes_b[l] < model_.dofs.n_owned_nodes()) add_block(nodes_b[l], nodes_a[k], block.transpose());
     }

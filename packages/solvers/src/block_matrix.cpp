@@ -9,33 +9,38 @@ template <int rows, int cols>
 BlockMatrix<rows, cols>::BlockMatrix(const Matrix& matrix) : ghosts_(matrix.getDomainMap(), *matrix.getColMap()) {
   const auto local = matrix.getLocalMatrixHost();
   const int n_rows = static_cast<int>(local.numRows()) / rows;
-  std::vector<int> block_of(matrix.getColMap()->getNodeNumElements()), component_of(block_of.size());
-  for (std::size_t i = 0; i < block_of.size(); ++i) {
+  place_.resize(matrix.getColMap()->getNodeNumElements());
+  for (std::size_t i = 0; i < place_.size(); ++i) {
     const base::GlobalId number = matrix.getColMap()->getGlobalElement(static_cast<int>(i));
-    block_of[i] = ghosts_.local_block(number);
-    component_of[i] = ghosts_.component(number);
+    place_[i] = ghosts_.local_block(number) * cols + ghosts_.component(number);
   }
-  std::vector<int> place(ghosts_.n_all(), -1);  // within the row, of the blocks that are there
+  std::vector<int> last_row(ghosts_.n_all(), -1);  // that the block column has been found in
   first_ = {0};
   for (int row = 0; row < n_rows; ++row) {
     const auto begin = static_cast<std::ptrdiff_t>(first_.back());
     for (auto k = local.graph.row_map(row * rows); k < local.graph.row_map((row + 1) * rows); ++k) {
-      const int block = block_of[local.graph.entries(k)];
-      if (place[block] == row) continue;
-      place[block] = row;
+      const int block = place_[local.graph.entries(k)] / cols;
+      if (last_row[block] == row) continue;
+      last_row[block] = row;
       columns_.push_back(block);
     }
     std::sort(columns_.begin() + begin, columns_.end());
     first_.push_back(columns_.size());
   }
   values_.assign(columns_.size() * n_groups * n_lanes, 0.f);
-  for (int row = 0; row < n_rows; ++row) {
-    for (std::size_t b = first_[row]; b < first_[row + 1]; ++b) place[columns_[b]] = static_cast<int>(b - first_[row]);
+  read_values(matrix);
+}
+
+template <int rows, int cols>
+void BlockMatrix<rows, cols>::read_values(const Matrix& matrix) {
+  const auto local = matrix.getLocalMatrixHost();
+  std::vector<std::size_t> block_at(ghosts_.n_all());  // of the row, by block column
+  for (int row = 0; row < n_rows(); ++row) {
+    for (std::size_t b = first_[row]; b < first_[row + 1]; ++b) block_at[columns_[b]] = b;
     for (int r = 0; r < rows; ++r) {
       for (auto k = local.graph.row_map(row * rows + r); k < local.graph.row_map(row * rows + r + 1); ++k) {
-        const int column = local.graph.entries(k);
-        values_[entry(first_[row] + place[block_of[column]], r, component_of[column])] =
-            static_cast<float>(local.values(k));
+        const int place = place_[local.graph.entries(k)];
+        values_[entry(block_at[place / cols], r, place % cols)] = static_cast<float>(local.values(k));
       }
     }
   }

@@ -24,6 +24,9 @@ class BlockMatrix {
   /// the other. Collective.
   explicit BlockMatrix(const Matrix& matrix);
 
+  /// Takes the values of the same matrix anew. Local.
+  void read_values(const Matrix& matrix);
+
   int n_rows() const { return static_cast<int>(first_.size()) - 1; }
   std::size_t first(int row) const { return first_[row]; }
   std::size_t end(int row) const { return first_[row + 1]; }
@@ -61,6 +64,7 @@ class BlockMatrix {
   GhostExchange<cols> ghosts_;
   std::vector<std::size_t> first_;  ///< by row of blocks, and the end
   std::vector<int> columns_;
+  std::vector<int> place_;  ///< of the matrix's local columns in a vector
   std::vector<float, Eigen::aligned_allocator<float>> values_;
 
   std::size_t entry(std::size_t block, int r, int c) const {

@@ -1,7 +1,7 @@
 #include "perimorph/solvers/linear_solver.hpp"
 
+#include <BelosBlockCGSolMgr.hpp>
 #include <BelosLinearProblem.hpp>
-#include <BelosPseudoBlockCGSolMgr.hpp>
 #include <BelosTpetraAdapter.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <cmath>
@@ -14,14 +14,35 @@ namespace {
 
 constexpr std::size_t most_factorized = 100000;  // rows: about 1 GB with the whole stiffness
 
+/// T B T^T, for one vector at a time.
+class InBasis : public Operator {
+ public:
+  InBasis(const Teuchos::RCP<const Operator>& basis, const Teuchos::RCP<const Operator>& inner)
+      : basis_(basis), inner_(inner), input_(basis->getDomainMap(), 1), output_(basis->getDomainMap(), 1) {}
+
+  Teuchos::RCP<const Tpetra::Map<>> getDomainMap() const override { return basis_->getRangeMap(); }
+  Teuchos::RCP<const Tpetra::Map<>> getRangeMap() const override { return basis_->getRangeMap(); }
+
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, double alpha, double beta) const override {
+    basis_->apply(x, input_, Teuchos::TRANS);
+    inner_->apply(input_, output_);
+    basis_->apply(output_, y, Teuchos::NO_TRANS, alpha, beta);
+  }
+
+ private:
+  Teuchos::RCP<const Operator> basis_, inner_;
+  mutable MultiVector input_, output_;
+};
+
 }  // namespace
 
 void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
-                                const Teuchos::RCP<Matrix>& preconditioner_matrix,
-                                const NearNullSpace& near_null_space) {
+                                const Teuchos::RCP<Matrix>& preconditioner_matrix, const NearNullSpace& near_null_space,
+                                const Teuchos::RCP<const Operator>& basis) {
   operator_ = linear_operator;
   preconditioner_matrix_ = preconditioner_matrix;
   near_null_space_ = near_null_space;
+  basis_ = basis;
   forget();
 }
 
@@ -84,8 +105,13 @@ void LinearSolver::build() {
 }
 
 void LinearSolver::prepare() {
-  if (condition_ == Condition::good) return;
+  if (condition_ == Condition::good && !has_changed_) return;
   const auto timer = profile_.measure(base::Phase::preconditioner);
+  has_changed_ = false;
+  if (condition_ == Condition::good) {
+    if (multigrid_) multigrid_->refresh_finest();
+    return;
+  }
   const bool refresh = condition_ == Condition::aged && !refreshed_ && multigrid_;
   try {
     if (refresh) {
@@ -107,16 +133,20 @@ LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, 
   const auto timer = profile_.measure(base::Phase::cg);
   const auto problem =
       Teuchos::rcp(new Problem(operator_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
-  problem->setLeftPrec(multigrid_ ? multigrid_->apply_inverse() : factorization_->apply_inverse());
-  problem->setProblem();
+  problem->setInitResVec(Teuchos::rcpFromRef(right_hand_side));  // known, as the solution starts from zero
+  problem->setProblem();                                         // would apply a preconditioner, to no purpose
+  Teuchos::RCP<const Operator> inverse = multigrid_ ? multigrid_->apply_inverse() : factorization_->apply_inverse();
+  if (!basis_.is_null()) inverse = Teuchos::rcp(new InBasis(basis_, inverse));
+  problem->setLeftPrec(inverse);
 
   const auto list = Teuchos::parameterList("Belos");
   list->set("Verbosity", static_cast<int>(Belos::Errors));
+  list->set("Use Single Reduction", true);  // and no application of the preconditioner after the last iteration
   list->setParameters(parameters_.belos);
   list->set("Maximum Iterations", parameters_.max_iterations);
   list->set("Convergence Tolerance", relative_tolerance);
   try {
-    Belos::PseudoBlockCGSolMgr<double, MultiVector, Operator> solver(problem, list);
+    Belos::BlockCGSolMgr<double, MultiVector, Operator> solver(problem, list);
     const bool converged = solver.solve() == Belos::Converged;
     return {converged, solver.getNumIters(), ""};
   } catch (const std::exception& error) {  // "non-positive value for p^H*A*p", not a number

@@ -120,11 +120,16 @@ void Multigrid::refresh() {
   make_operator();
 }
 
+void Multigrid::refresh_finest() {
+  if (has_own_cycle_) own_cycle_->refresh_finest();
+}
+
 void Multigrid::make_operator() {
   operator_ = hierarchy_->preconditioner;
   if (!has_own_cycle_) return;
   const auto levels = levels_of(*hierarchy_->preconditioner);
-  operator_ = dim_ == 2 ? make_single_precision_cycle<2>(levels) : make_single_precision_cycle<3>(levels);
+  own_cycle_ = dim_ == 2 ? make_single_precision_cycle<2>(levels) : make_single_precision_cycle<3>(levels);
+  operator_ = own_cycle_;
 }
 
 template NearNullSpace rigid_body_modes<2>(const Matrix&, const std::vector<base::Point<2>>&);

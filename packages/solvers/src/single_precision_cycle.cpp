@@ -37,24 +37,25 @@ template <int size>
 class Smoother {
  public:
   explicit Smoother(const Matrix& matrix) : matrix_(matrix) {
-    std::vector<Block<size>> blocks;
     float largest = 0.f;
     for (int row = 0; row < n_rows(); ++row) {
       std::size_t diagonal = matrix_.first(row);
       while (matrix_.column(diagonal) != row) ++diagonal;
-      BlockVector<size> neglected = BlockVector<size>::Zero();
-      for (auto b = diagonal + 1; b < matrix_.end(row); ++b) {
-        if (matrix_.column(b) >= n_rows()) neglected += 0.5f * matrix_.block(b).cwiseAbs().rowwise().sum();
-      }
-      Block<size> block = matrix_.block(diagonal);
-      block.diagonal() += neglected;
       diagonal_.push_back(diagonal);
-      neglected_.push_back(neglected);
-      blocks.push_back(block);
-      largest = std::max(largest, block.diagonal().maxCoeff());
+      largest = std::max(largest, matrix_.block(diagonal).diagonal().maxCoeff());
     }
     // A piece that floats has no stiffness but its anchors, and in single precision no forces but rounding errors.
-    for (const auto& block : blocks) inverse_.push_back(inverse<size>(block, 1e-5 * largest));
+    smallest_ = 1e-5 * largest;
+    neglected_.resize(diagonal_.size());
+    inverted_.assign(diagonal_.size(), Block<size>::Zero());
+    inverse_.assign(diagonal_.size(), Block<size>::Zero());
+    invert_diagonal();
+  }
+
+  /// Takes the matrix's values anew.
+  void refresh(const Matrix& matrix) {
+    matrix_.read_values(matrix);
+    invert_diagonal();
   }
 
   int n_rows() const { return matrix_.n_rows(); }
@@ -92,7 +93,22 @@ class Smoother {
   BlockMatrix<size, size> matrix_;
   std::vector<std::size_t> diagonal_;
   std::vector<BlockVector<size>> neglected_;
-  std::vector<Block<size>> inverse_;  ///< of the diagonal and what is neglected
+  std::vector<Block<size>> inverted_, inverse_;  ///< of the diagonal and what is neglected
+  double smallest_;                              ///< eigenvalue that counts
+
+  void invert_diagonal() {
+    for (int row = 0; row < n_rows(); ++row) {
+      neglected_[row].setZero();
+      for (auto b = diagonal_[row] + 1; b < matrix_.end(row); ++b) {
+        if (matrix_.column(b) >= n_rows()) neglected_[row] += 0.5f * matrix_.block(b).cwiseAbs().rowwise().sum();
+      }
+      Block<size> block = matrix_.block(diagonal_[row]);
+      block.diagonal() += neglected_[row];
+      if (block == inverted_[row]) continue;
+      inverted_[row] = block;
+      inverse_[row] = inverse<size>(block, smallest_);
+    }
+  }
 
   void relax(int row, Values& b, Values& x) const {
     at<size>(x, row) += inverse_[row] * (at<size>(b, row) - matrix_.product(row, x.data()));
@@ -131,6 +147,8 @@ class Level {
     below_ = std::make_unique<Level<coarse, coarse>>(levels + 1, n_levels - 1);
   }
 
+  void refresh(const Matrix& matrix) { smoother_.refresh(matrix); }
+
   Values& right_hand_side() { return b_; }
   const Values& solution() const { return x_; }
 
@@ -167,13 +185,15 @@ class Level {
 };
 
 template <int dim>
-class SinglePrecisionCycle : public Operator {
+class VCycle : public SinglePrecisionCycle {
  public:
-  explicit SinglePrecisionCycle(const std::vector<CycleLevel>& levels)
-      : map_(levels.front().matrix->getRowMap()), finest_(levels.data(), levels.size()) {}
+  explicit VCycle(const std::vector<CycleLevel>& levels)
+      : matrix_(levels.front().matrix), finest_(levels.data(), levels.size()) {}
 
-  Teuchos::RCP<const Tpetra::Map<>> getDomainMap() const override { return map_; }
-  Teuchos::RCP<const Tpetra::Map<>> getRangeMap() const override { return map_; }
+  Teuchos::RCP<const Tpetra::Map<>> getDomainMap() const override { return matrix_->getRowMap(); }
+  Teuchos::RCP<const Tpetra::Map<>> getRangeMap() const override { return matrix_->getRowMap(); }
+
+  void refresh_finest() override { finest_.refresh(*matrix_); }
 
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, double alpha, double beta) const override {
     const auto input = x.getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -190,18 +210,18 @@ class SinglePrecisionCycle : public Operator {
   }
 
  private:
-  Teuchos::RCP<const Tpetra::Map<>> map_;
+  Teuchos::RCP<const Matrix> matrix_;
   mutable Level<dim, dim*(dim + 1) / 2> finest_;
 };
 
 }  // namespace
 
 template <int dim>
-Teuchos::RCP<Operator> make_single_precision_cycle(const std::vector<CycleLevel>& levels) {
-  return Teuchos::rcp(new SinglePrecisionCycle<dim>(levels));
+Teuchos::RCP<SinglePrecisionCycle> make_single_precision_cycle(const std::vector<CycleLevel>& levels) {
+  return Teuchos::rcp(new VCycle<dim>(levels));
 }
 
-template Teuchos::RCP<Operator> make_single_precision_cycle<2>(const std::vector<CycleLevel>&);
-template Teuchos::RCP<Operator> make_single_precision_cycle<3>(const std::vector<CycleLevel>&);
+template Teuchos::RCP<SinglePrecisionCycle> make_single_precision_cycle<2>(const std::vector<CycleLevel>&);
+template Teuchos::RCP<SinglePrecisionCycle> make_single_precision_cycle<3>(const std::vector<CycleLevel>&);
 
 }  // namespace perimorph::solvers

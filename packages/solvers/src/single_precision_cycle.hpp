@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Teuchos_RCP.hpp>
+#include <Tpetra_Operator.hpp>
 #include <vector>
 
 #include "perimorph/solvers/multigrid.hpp"
@@ -19,9 +20,15 @@ struct CycleLevel {
 /// backward one after it. Between ranks the sweeps are Jacobi's, made convergent by half the sum of the neglected
 /// entries on the diagonal [Baker, Falgout, Kolev, Yang: Multigrid smoothers for ultraparallel computing, 2011,
 /// l1-Gauss-Seidel].
+class SinglePrecisionCycle : public Operator {
+ public:
+  /// Takes the finest matrix's values anew; the coarse ones stay, too stiff where it has become softer. Local.
+  virtual void refresh_finest() = 0;
+};
+
 /// @param levels from fine to coarse; blocks have dim unknowns on the finest, dim (dim + 1) / 2 on all others.
 /// Collective.
 template <int dim>
-Teuchos::RCP<Operator> make_single_precision_cycle(const std::vector<CycleLevel>& levels);
+Teuchos::RCP<SinglePrecisionCycle> make_single_precision_cycle(const std::vector<CycleLevel>& levels);
 
 }  // namespace perimorph::solvers

@@ -13,6 +13,8 @@ using testing::StartsWith;
 /// On elements of 1: what the documentation recommends.
 Case good() {
   Case input{};
+  input.dimension = 2;
+  input.points_per_direction = 2;
   input.fracture_energy = 0.1;
   input.calibration = Calibration::mesh_consistent;
   input.characteristic_length = 1. / 3.;
@@ -43,6 +45,9 @@ TEST(Advice, ACharacteristicLengthOfAFifthOfAnElementHoldsCracksUp) {
   EXPECT_THAT(advice(input, 1.),
               ElementsAre(AllOf(StartsWith("/Peridynamics/Characteristic Length: 0.2 is 0.20 of an element"),
                                 HasSubstr("(for which the critical stretch makes up)"))));
+  input.dimension = 3;
+  EXPECT_THAT(advice(input, 1.), IsEmpty());  // not measured
+  input.dimension = 2;
   input.calibration = Calibration::analytic;
   EXPECT_THAT(advice(input, 1.)[0], Not(HasSubstr("makes up")));
   input.fracture_energy.reset();

@@ -28,6 +28,8 @@ TEST(LatticeResistance, StaysAtTheNearestMeasuredValueOutsideTheirRange) {
 /// A case on elements of 1 with l = 0.2, of which only what the calibration reads is filled in.
 Case some_case(Calibration calibration) {
   Case input{};
+  input.dimension = 2;
+  input.points_per_direction = 2;
   input.calibration = calibration;
   input.discontinuous = on_damage;
   input.peridynamic_stiffness = dropped;
@@ -63,6 +65,16 @@ TEST(CalibrationToTheMesh, LeavesAGivenCriticalStretchAndRaisesTheFractureEnergy
 
   EXPECT_EQ(problem.critical_stretch, 0.01);
   EXPECT_DOUBLE_EQ(problem.fracture_energy, analytic * std::pow(lattice_resistance(on_damage, dropped, 0.2), 2));
+}
+
+TEST(CalibrationToTheMesh, ChangesNothingWhereTheResistanceHasNotBeenMeasured) {
+  Case input = some_case(Calibration::mesh_consistent);
+  input.points_per_direction = 3;
+  Problem<2> problem = some_problem();
+
+  EXPECT_FALSE(calibrate_to_mesh(problem, input, 1.));
+
+  EXPECT_EQ(problem.critical_stretch, 0.01);
 }
 
 TEST(CalibrationToTheMesh, AnalyticChangesNothing) {

@@ -190,6 +190,23 @@ TEST(AnsysMesh, AQuadrangleWithARepeatedNodeIsATriangle) {
   }
 }
 
+/// A kind of element by its number or its name, as CDWRITE writes one or the other.
+template <int dim>
+void expect_same_as_kind(const std::string& geo, const std::string& usual, const std::vector<std::string>& kinds) {
+  const Mesh<dim> expected = from_gmsh<dim>(geo);
+  for (const std::string& kind : kinds) {
+    SCOPED_TRACE(kind);
+    const std::string text = replaced(ansys_archive(expected), "ET,        1," + usual, "ET,        1," + kind);
+    expect_same(read_mesh<dim>(written("mesh.cdb", text)), expected, 1e-12);
+  }
+}
+
+TEST(AnsysMesh, OldAndNewKindsHaveTheSameShapesTheCollapsedOnesToo) {
+  expect_same_as_kind<2>(two_blocks, "182", {"PLANE182", "42", "PLANE42"});
+  expect_same_as_kind<3>(extruded_block, "185", {"SOLID185", "45", "SOLID45"});
+  expect_same_as_kind<3>(box, "185", {"SOLID185", "45", "SOLID45"});  // tetrahedra
+}
+
 TEST(AnsysMesh, WindowsLineEndsDoNotMatter) {
   std::string text = two_squares_cdb;
   for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + 2)) text.insert(i, "\r");

@@ -7,7 +7,7 @@
 //      left                                      right: supports
 length = 80;
 height = 20;
-dx = 1;  // of the elements; the horizon in @NAME@.xml is three times this
+dx = 1;  // of the elements; the horizon in @NAME@.xml is four times this
 
 Point(1) = {0, 0, 0};
 Point(2) = {length / 2, 0, 0};

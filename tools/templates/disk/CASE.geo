@@ -8,7 +8,7 @@
 radius = 12;
 half = 2;         // of the width on which the plates press
 half_crack = 4;
-dx = 1;           // of the elements; the horizon in @NAME@.xml is three times this
+dx = 1;           // of the elements; the horizon in @NAME@.xml is four times this
 size = 1.1 * dx;  // recombined quadrilaterals come out smaller than asked for
 
 y = Sqrt(radius^2 - half^2);

@@ -8,7 +8,7 @@
 //        1 ----------------- 2
 //     corner   bottom: held
 size = 40;
-dx = 1;  // of the elements; the horizon in @NAME@.xml is three times this
+dx = 1;  // of the elements; the horizon in @NAME@.xml is four times this
 
 Point(1) = {0, -size / 2, 0};
 Point(2) = {size, -size / 2, 0};

@@ -27,6 +27,7 @@ struct BodyOptions {
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
   double short_range_cut_off = 0.;  ///< [length]
   solvers::SolverParameters solver;
+  int points_per_direction = 2;  ///< material points of an element
 };
 BodyOptions body_options(const Case& input);
 
@@ -124,8 +125,8 @@ class Body {
   const mesh::Mesh<dim>& mesh() const { return mesh_; }
   const std::vector<morphing::ElementClass>& classes() const { return classes_; }
   bool is_discontinuous(int element) const { return discontinuous_[element]; }
-  std::size_t bytes_of_operator() const { return stiffness_->bytes(); }
-  const double* displacement() const;  ///< all local degrees of freedom
+  std::size_t bytes_of_operator() const;  ///< of memory, in the form that conjugate gradients apply
+  const double* displacement() const;     ///< all local degrees of freedom
   const std::vector<base::Point<dim>>& displacement_at_points() const { return at_points_; }
   /// Force that supports exert on an owned node, [force].
   base::Point<dim> reaction(int node) const;

@@ -18,9 +18,13 @@ double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffn
 template <int dim>
 double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
 
-/// With Calibration::mesh_consistent, divides the critical stretch by the lattice's resistance, so that a crack runs at
-/// K = sqrt(E G_c); where the critical stretch is given, changes the fracture energy accordingly. In three dimensions
-/// the resistance has not been measured, and nothing changes. Returns whether it did. Local.
+/// Whether a case's critical stretch and fracture energy make up for the lattice's resistance. In three dimensions, and
+/// with other than two points per direction, the resistance has not been measured for all policies. Local.
+bool is_calibrated_to_mesh(const Case& input);
+
+/// If the case is to be, divides the critical stretch by the lattice's resistance, so that a crack runs at
+/// K = sqrt(E G_c); where the critical stretch is given, changes the fracture energy accordingly. Returns whether it
+/// did. Local.
 template <int dim>
 bool calibrate_to_mesh(Problem<dim>& problem, const Case& input, double element_size);
 

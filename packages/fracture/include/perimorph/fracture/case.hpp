@@ -80,6 +80,7 @@ struct Case {
   Calibration calibration;
 
   double horizon, characteristic_length;
+  int points_per_direction;  ///< material points of an element
 
   MorphingProfile profile;
   DiscontinuousElements discontinuous;

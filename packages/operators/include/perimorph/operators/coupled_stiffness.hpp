@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "perimorph/operators/supports.hpp"
+#include "perimorph/operators/point_basis.hpp"
 
 namespace perimorph::operators {
 
@@ -29,11 +29,14 @@ class CoupledStiffness {
   using Matrix = Tpetra::CrsMatrix<double>;
 
   /// Collective. The model is read again by subtract() and must outlive this.
+  /// @param basis of the unknowns where they are not nodal displacements; the supports' springs are not transformed
   CoupledStiffness(const CoupledModel<dim>& model, const Supports<dim>& supports,
-                   const BondSelection& selection = all_bonds);
+                   const BondSelection& selection = all_bonds,
+                   Teuchos::RCP<const PointBasis<dim>> basis = Teuchos::null);
 
   const Teuchos::RCP<Matrix>& matrix() const { return matrix_; }
   Teuchos::RCP<Tpetra::Operator<double>> linear_operator() const;
+  std::size_t bytes() const;  ///< of memory: the matrix's values, columns and row starts
 
   /// Takes the springs of newly broken bonds out of the values, in place. Local.
   void subtract(const std::vector<std::size_t>& broken);
@@ -41,15 +44,22 @@ class CoupledStiffness {
  private:
   CoupledModel<dim> model_;
   BondSelection selection_;
-  std::vector<char> has_selected_bonds_;  ///< per pair of elements
-  std::vector<char> fixed_;               ///< per local degree of freedom: prescribed
-  std::vector<std::size_t> first_;        ///< node-block rows: position of the first block of each owned node's row
-  std::vector<int> columns_;              ///< nodes, ascending in a row
-  std::vector<std::size_t> diagonal_;     ///< position of each row's diagonal block
+  Teuchos::RCP<const PointBasis<dim>> basis_;  ///< null: nodal displacements everywhere
+  std::vector<char> has_selected_bonds_;       ///< per pair of elements
+  std::vector<char> fixed_;                    ///< per local degree of freedom: prescribed
+  std::vector<std::size_t> first_;     ///< node-block rows: position of the first block of each owned node's row
+  std::vector<int> columns_;           ///< nodes, ascending in a row
+  std::vector<std::size_t> diagonal_;  ///< position of each row's diagonal block
   Teuchos::RCP<Matrix> matrix_;
   double* values_ = nullptr;  ///< of the matrix
 
   using Block = Eigen::Matrix<double, dim, dim>;
+  bool is_by_points(int element) const { return !basis_.is_null() && basis_->holds(element); }
+  /// Displacement of an element's q-th point where its k-th unknown is 1.
+  double shape(int element, int q, int k) const {
+    return is_by_points(element) ? static_cast<double>(q == k) : model_.points.shape(element, q)[k];
+  }
+  std::vector<std::vector<int>> nodes_bonded_by_points() const;
   void find_pattern();
   void make_matrix();
   void add_block(int row, int column, const Block& block);

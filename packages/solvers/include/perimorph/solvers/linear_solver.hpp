@@ -16,7 +16,7 @@ struct SolverParameters {
 };
 
 /// Conjugate gradients (Belos) with multigrid, for a matrix whose values change a little between many solves. The
-/// preconditioner is kept as long as it serves: then refreshed, then rebuilt.
+/// preconditioner is kept as long as it serves, but for its finest level: then refreshed, then rebuilt.
 class LinearSolver {
  public:
   LinearSolver(SolverParameters parameters, base::Profile& profile)
@@ -24,8 +24,12 @@ class LinearSolver {
 
   /// A new operator: the preconditioner is rebuilt before the next solve, from a matrix that is near to the operator,
   /// or the same. Local.
+  /// @param basis T, if the preconditioner's matrix is near to T^T A T instead
   void set_operator(const Teuchos::RCP<Operator>& linear_operator, const Teuchos::RCP<Matrix>& preconditioner_matrix,
-                    const NearNullSpace& near_null_space);
+                    const NearNullSpace& near_null_space, const Teuchos::RCP<const Operator>& basis = Teuchos::null);
+
+  /// The preconditioner's matrix has new values. Local.
+  void note_change() { has_changed_ = true; }
 
   /// The preconditioner is rebuilt before the next solve: nothing that comes depends on solves before. Local.
   void forget();
@@ -43,12 +47,14 @@ class LinearSolver {
   SolverParameters parameters_;
   base::Profile& profile_;
   Teuchos::RCP<Operator> operator_;
+  Teuchos::RCP<const Operator> basis_;
   Teuchos::RCP<Matrix> preconditioner_matrix_;
   NearNullSpace near_null_space_;
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
   Condition condition_ = Condition::missing;
-  bool refreshed_ = false;  ///< since the last rebuild
+  bool refreshed_ = false;    ///< since the last rebuild
+  bool has_changed_ = false;  ///< the matrix, since the finest level took its values
   Cycle cycle_ = Cycle::fast;
 
   bool is_factorized() const;

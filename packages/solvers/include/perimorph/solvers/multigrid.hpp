@@ -14,6 +14,7 @@ namespace perimorph::solvers {
 using Matrix = Tpetra::CrsMatrix<double>;
 using MultiVector = Tpetra::MultiVector<double>;
 using Operator = Tpetra::Operator<double>;
+class SinglePrecisionCycle;
 
 /// Rigid-body modes of the owned degrees of freedom: dim translations and the rotations (3 modes in 2D, 6 in 3D), and
 /// the nodes' coordinates, as MueLu wants them. @param coordinates of the owned nodes, [length]
@@ -39,6 +40,9 @@ class Multigrid {
   /// New values in the same matrix: keeps aggregates and prolongators ("RP" reuse), renews the rest. Collective.
   void refresh();
 
+  /// New values in the same matrix, for our own cycle's finest level only. Local.
+  void refresh_finest();
+
   const Teuchos::RCP<Operator>& apply_inverse() const { return operator_; }
 
  private:
@@ -46,6 +50,7 @@ class Multigrid {
   std::unique_ptr<Hierarchy> hierarchy_;
   int dim_;
   bool has_own_cycle_;
+  Teuchos::RCP<SinglePrecisionCycle> own_cycle_;
   Teuchos::RCP<Operator> operator_;
 
   void make_operator();

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Tpetra_MultiVector_fwd.hpp>
+#include <Tpetra_Operator.hpp>
+#include <map>
+#include <vector>
+
+#include "perimorph/operators/supports.hpp"
+
+namespace perimorph::operators {
+
+/// Displacements at the quadrature points of discontinuous elements as unknowns, in the place of those at their nodes.
+/// A point is coupled to the points that it has bonds with and not to all nodes of their elements: the matrix is the
+/// same operator with a third of the entries. As an operator this is u = T v from the unknowns v to those of the nodes;
+/// transposed, it takes forces on nodes to forces on unknowns.
+///
+/// It holds for elements without stiffness of their own and supports, with as many points as nodes, all of which are
+/// one rank's.
+template <int dim>
+class PointBasis : public Tpetra::Operator<double> {
+ public:
+  using MultiVector = Tpetra::MultiVector<double>;
+  using Map = Tpetra::Map<>;
+
+  /// Collective. The model is read again and must outlive this.
+  PointBasis(const CoupledModel<dim>& model, const Supports<dim>& supports, const std::vector<char>& discontinuous);
+
+  /// Whether the q-th "node" of a local element is its q-th point. The same on every rank that has the element.
+  bool holds(int element) const { return holds_[element]; }
+
+  /// Where each owned node's unknowns are displacements, [length].
+  std::vector<base::Point<dim>> coordinates() const;
+
+  Teuchos::RCP<const Map> getDomainMap() const override { return model_.dofs.owned_dofs(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return model_.dofs.owned_dofs(); }
+  bool hasTransposeApply() const override { return true; }
+
+  /// y = beta y + alpha T x. Local.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS, double alpha = 1.,
+             double beta = 0.) const override;
+
+ private:
+  using CornerMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, mesh::max_corners, mesh::max_corners>;
+
+  CoupledModel<dim> model_;
+  std::vector<char> holds_;
+  struct Element {
+    int element;                ///< whose nodes are owned
+    const CornerMatrix* added;  ///< T - 1 for one component
+  };
+  std::vector<Element> elements_;
+  std::map<const elements::ReferenceElement<dim>*, CornerMatrix> tables_;
+
+  bool is_suitable(int element, const Supports<dim>& supports) const;
+};
+
+}  // namespace perimorph::operators

@@ -1,0 +1,88 @@
+#include "perimorph/operators/point_basis.hpp"
+
+#include <Eigen/LU>
+#include <Tpetra_MultiVector.hpp>
+#include <algorithm>
+#include <numeric>
+
+namespace perimorph::operators {
+
+template <int dim>
+PointBasis<dim>::PointBasis(const CoupledModel<dim>& model, const Supports<dim>& supports,
+                            const std::vector<char>& discontinuous)
+    : model_(model), holds_(discontinuous) {
+  const auto& dofs = model.dofs;
+  auto ends = base::gather_on_all(*dofs.owned_dofs()->getComm(), std::vector<base::GlobalId>{dofs.n_owned_nodes()});
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());  // of the ranks' nodes, whose numbers are contiguous
+  const auto rank_of = [&](int node) {
+    return std::upper_bound(ends.begin(), ends.end(), dofs.global_node(node)) - ends.begin();
+  };
+  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+    if (!holds_[e]) continue;
+    const int* nodes = dofs.nodes_of(e);
+    const bool is_one_ranks = std::all_of(nodes, nodes + model.mesh.n_corners(e),
+                                          [&](int node) { return rank_of(node) == rank_of(nodes[0]); });
+    holds_[e] = is_one_ranks && is_suitable(e, supports);
+    if (!holds_[e] || nodes[0] >= dofs.n_owned_nodes()) continue;
+
+    const auto& reference = model.points.reference(e);
+    const auto [entry, is_new] = tables_.try_emplace(&reference);
+    if (is_new) {
+      CornerMatrix at_points(reference.n_points, reference.n_corners);
+      for (int q = 0; q < reference.n_points; ++q) at_points.row(q) = reference.shape[q];
+      entry->second = at_points.inverse() - CornerMatrix::Identity(reference.n_points, reference.n_corners);
+    }
+    elements_.push_back({e, &entry->second});
+  }
+}
+
+template <int dim>
+bool PointBasis<dim>::is_suitable(int element, const Supports<dim>& supports) const {
+  if (!model_.elasticity.is_zero(element) || model_.points.count(element) != model_.mesh.n_corners(element))
+    return false;
+  const int* nodes = model_.dofs.nodes_of(element);
+  return std::none_of(nodes, nodes + model_.mesh.n_corners(element), [&](int node) {
+    const auto first = supports.fixed.begin() + static_cast<std::ptrdiff_t>(node) * dim;
+    return std::any_of(first, first + dim, [](char fixed) { return fixed != 0; });
+  });
+}
+
+template <int dim>
+std::vector<base::Point<dim>> PointBasis<dim>::coordinates() const {
+  std::vector<base::Point<dim>> result;
+  for (int n = 0; n < model_.dofs.n_owned_nodes(); ++n) {
+    result.push_back(model_.mesh.coordinates[model_.dofs.reference_node(n)]);
+  }
+  for (const auto& [e, added] : elements_) {
+    for (int q = 0; q < model_.points.count(e); ++q) {
+      result[model_.dofs.nodes_of(e)[q]] = model_.points.position(model_.points.first(e) + q);
+    }
+  }
+  return result;
+}
+
+template <int dim>
+void PointBasis<dim>::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
+                            double beta) const {
+  y.update(alpha, x, beta);
+  const auto input = x.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto output = y.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t column = 0; column < input.extent(1); ++column) {
+    for (const auto& [e, added] : elements_) {
+      const int* nodes = model_.dofs.nodes_of(e);
+      const int n = model_.mesh.n_corners(e);
+      for (int k = 0; k < n; ++k) {
+        for (int l = 0; l < n; ++l) {
+          const double factor = alpha * (mode == Teuchos::NO_TRANS ? (*added)(k, l) : (*added)(l, k));
+          for (int c = 0; c < dim; ++c)
+            output(nodes[k] * dim + c, column) += factor * input(nodes[l] * dim + c, column);
+        }
+      }
+    }
+  }
+}
+
+template class PointBasis<2>;
+template class PointBasis<3>;
+
+}  // namespace perimorph::operators

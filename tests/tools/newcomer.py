@@ -1,0 +1,62 @@
+"""From a clone to a picture of a broken beam: the README's first two commands, as they are written. Only what they install and
+build is there already (tools/fresh-machine does that, too).
+
+    newcomer.py PERIMORPH RUNS
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+from PIL import Image
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PERIMORPH = pathlib.Path(sys.argv[1])
+del sys.argv[1:]
+
+
+class Newcomer(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.clone = pathlib.Path(folder.name) / "perimorph"
+        for part in ["tools", "inputs/notched_beam"]:
+            shutil.copytree(ROOT / part, self.clone / part)
+        (self.clone / "tools/build").write_text("#!/bin/sh\n")
+        (self.clone / "build/drivers").mkdir(parents=True)
+        (self.clone / "build/drivers/perimorph").symlink_to(PERIMORPH)
+
+    @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("xvfb-run"), "needs ParaView")
+    def test_two_commands_lead_to_a_picture_of_a_broken_beam(self):
+        text = (ROOT / "README.md").read_text()
+        section = re.search(r"^## Two commands$(.*?)^## ", text, re.MULTILINE | re.DOTALL).group(1)
+        commands = re.findall(r"^    (\S.*?) *#(.*)$", section, re.MULTILINE)
+        self.assertEqual(len(commands), 2)
+        for command, _ in commands:
+            done = subprocess.run(command, shell=True, cwd=self.clone, capture_output=True, text=True, timeout=800)
+            self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}\n{done.stderr}")
+
+        picture = self.clone / re.search(r"\S+\.png", commands[1][1]).group()
+        pixels = numpy.asarray(Image.open(picture).convert("RGB")).astype(int)
+        red, green, blue = pixels[:, :-300].transpose(2, 0, 1)  # without the legend
+        damaged = (red > 200) & (green < 150) & (blue < 100)
+        height, width = damaged.shape
+        rows, columns = damaged.nonzero()
+        self.assertGreater(rows.max() - rows.min(), 0.25 * height)  # a crack, upright
+        self.assertLess(columns.max() - columns.min(), 0.15 * width)
+
+    def test_what_cannot_be_installed_is_told(self):
+        told = subprocess.run(
+            [sys.executable, "-c", 'import messages; messages.need("numpy", "no_such_module", programs=["sh", "no_such_program"])'],
+            cwd=self.clone / "tools", capture_output=True, text=True, timeout=100)
+        self.assertEqual(told.returncode, 2, told.stderr)
+        self.assertIn("no_such_module, no_such_program missing, and tools/install-dependencies view has not brought it", told.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,106 @@
+// Displacements of points as unknowns: the same operator as with those of nodes, on every number of ranks.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/coupled_body.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using Vector = Tpetra::Vector<double>;
+
+/// Irregular elements, half of them discontinuous, a side held.
+Setup held(bool triangles) {
+  Setup setup{{19, 17, 19., 17., Point2::Zero(), 0.15, triangles}, 2.5, 0.5, {}};
+  setup.zones = {morphing::Zone<2>::ball({5., 8.}, 8., 9.5)};
+  setup.whole_zone_discontinuous = true;
+  setup.prescribed = {{"hold", "left", 0, {0., 0.}}, {"hold", "left", 1, {0., 0.}}};
+  return setup;
+}
+
+class PointBasis : public ::testing::TestWithParam<bool> {
+ protected:
+  CoupledBody body{held(GetParam())};
+  Teuchos::RCP<const operators::PointBasis<2>> basis =
+      Teuchos::rcp(new operators::PointBasis<2>(body.model(), body.supports(), body.discontinuous));
+  operators::CoupledStiffness<2> by_points{body.model(), body.supports(), operators::all_bonds, basis};
+
+  Vector wave(double frequency) const {
+    Vector x(body.dofs->owned_dofs());
+    const auto values = x.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (std::size_t i = 0; i < x.getLocalLength(); ++i) {
+      values(i, 0) = std::sin(frequency * static_cast<double>(x.getMap()->getGlobalElement(static_cast<int>(i))));
+    }
+    return x;
+  }
+
+  int n_held() const {
+    int n = 0;
+    for (int e = 0; e < body.mesh.n_owned_elements; ++e) n += basis->holds(e);
+    return static_cast<int>(base::sum(*body.comm, static_cast<base::GlobalId>(n)));
+  }
+
+  /// T^T K T x = K_points x, but for the anchors' springs, which are 1e-8 of an element's stiffness.
+  void expect_the_same_operator() const {
+    const Vector x = wave(1.7);
+    Vector on_nodes(x.getMap()), forces(x.getMap()), expected(x.getMap()), actual(x.getMap());
+    basis->apply(x, on_nodes);
+    body.stiffness->matrix()->apply(on_nodes, forces);
+    basis->apply(forces, expected, Teuchos::TRANS);
+    by_points.matrix()->apply(x, actual);
+    actual.update(-1., expected, 1.);
+    EXPECT_LT(actual.norm2(), 1e-7 * expected.norm2());
+  }
+};
+
+TEST_P(PointBasis, GivesTheSameOperatorWithFewerEntries) {
+  EXPECT_GT(n_held(), 40);
+  expect_the_same_operator();
+  EXPECT_LT(by_points.matrix()->getGlobalNumEntries(), 0.85 * body.stiffness->matrix()->getGlobalNumEntries());
+}
+
+TEST_P(PointBasis, GivesTheSameOperatorAfterBondsBreak) {
+  std::vector<std::size_t> broken;
+  for (int p = 0; p < body.bonds.n_pairs(); ++p) {
+    const auto [first, second] = body.bonds.pair(p);
+    if ((body.mesh.element_ids[first] + body.mesh.element_ids[second]) % 3 != 0 || first == second) continue;
+    for (auto b = body.bonds.first_bond(p); b < body.bonds.first_bond(p + 1); ++b) {
+      body.bonds.set_broken(p, b);
+      broken.push_back(b);
+    }
+  }
+  body.stiffness->subtract(broken);
+  by_points.subtract(broken);
+  expect_the_same_operator();
+}
+
+TEST_P(PointBasis, TakesAnAffineFieldAtItsCoordinatesToTheNodes) {
+  const auto affine = [](const Point2& x, int c) { return c == 0 ? 2. - x[0] + 3. * x[1] : 0.5 * x[0] - x[1]; };
+  Vector at_unknowns(body.dofs->owned_dofs()), actual(at_unknowns.getMap());
+  const auto coordinates = basis->coordinates();
+  const auto values = at_unknowns.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t i = 0; i < values.extent(0); ++i) values(i, 0) = affine(coordinates[i / 2], static_cast<int>(i % 2));
+  basis->apply(at_unknowns, actual);
+  const auto results = actual.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto nodes = body.node_coordinates();
+  for (std::size_t i = 0; i < results.extent(0); ++i) {
+    EXPECT_NEAR(results(i, 0), affine(nodes[i / 2], static_cast<int>(i % 2)), 1e-12 * 100.);
+  }
+}
+
+TEST_P(PointBasis, IsTheTransposeOfItsTranspose) {
+  const Vector x = wave(1.7), y = wave(0.9);
+  Vector t_x(x.getMap()), t_y(x.getMap());
+  t_x.putScalar(3.);
+  basis->apply(x, t_x, Teuchos::NO_TRANS, -2., 0.5);  // 1.5 - 2 T x
+  basis->apply(y, t_y, Teuchos::TRANS);
+  EXPECT_NEAR(1.5 * y.meanValue() * static_cast<double>(y.getGlobalLength()) - t_x.dot(y), 2. * x.dot(t_y),
+              1e-12 * x.norm2() * t_y.norm2());
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, PointBasis, ::testing::Bool());
+
+}  // namespace
+}  // namespace perimorph::tests
