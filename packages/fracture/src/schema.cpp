@@ -294,7 +294,7 @@ void declare_solver(ParameterList& root) {
       "decided that no more bonds break.",
       between(0., 1.));
   solver.set(
-      "Damage Tolerance", 1e-3,
+      "Damage Tolerance", 1e-4,
       "The same as Tolerance, in solutions after which bonds break [-]; not below Tolerance. Too loose, and bonds "
       "break in another order.",
       between(0., 1.));
