@@ -127,11 +127,8 @@ void Body<dim>::assemble() {
   if (is_crs || !is_short_range) matrix_ = std::make_unique<Matrix>(model(), supports);
 
   std::vector<Point<dim>> coordinates;
-  if (basis.is_null()) {
-    for (int n = 0; n < dofs_->n_owned_nodes(); ++n) coordinates.push_back(mesh_.coordinates[dofs_->reference_node(n)]);
-  } else {
-    coordinates = basis->coordinates();
-  }
+  for (int n = 0; n < dofs_->n_owned_nodes(); ++n) coordinates.push_back(mesh_.coordinates[dofs_->reference_node(n)]);
+  if (!basis.is_null()) basis->move_to_points(coordinates);
   const auto preconditioner_matrix = (is_short_range ? short_range_ : matrix_)->matrix();
   Teuchos::RCP<solvers::Operator> linear_operator = stiffness_;
   if (is_crs) linear_operator = matrix_->linear_operator();

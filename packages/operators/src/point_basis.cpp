@@ -48,17 +48,12 @@ bool PointBasis<dim>::is_suitable(int element, const Supports<dim>& supports) co
 }
 
 template <int dim>
-std::vector<base::Point<dim>> PointBasis<dim>::coordinates() const {
-  std::vector<base::Point<dim>> result;
-  for (int n = 0; n < model_.dofs.n_owned_nodes(); ++n) {
-    result.push_back(model_.mesh.coordinates[model_.dofs.reference_node(n)]);
-  }
+void PointBasis<dim>::move_to_points(std::vector<base::Point<dim>>& coordinates) const {
   for (const auto& [e, added] : elements_) {
     for (int q = 0; q < model_.points.count(e); ++q) {
-      result[model_.dofs.nodes_of(e)[q]] = model_.points.position(model_.points.first(e) + q);
+      coordinates[model_.dofs.nodes_of(e)[q]] = model_.points.position(model_.points.first(e) + q);
     }
   }
-  return result;
 }
 
 template <int dim>

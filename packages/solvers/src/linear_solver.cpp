@@ -105,11 +105,11 @@ void LinearSolver::build() {
 }
 
 void LinearSolver::prepare() {
-  if (condition_ == Condition::good && !has_changed_) return;
+  if (condition_ == Condition::good) return;
   const auto timer = profile_.measure(base::Phase::preconditioner);
-  has_changed_ = false;
-  if (condition_ == Condition::good) {
+  if (condition_ == Condition::changed) {
     if (multigrid_) multigrid_->refresh_finest();
+    condition_ = Condition::good;
     return;
   }
   const bool refresh = condition_ == Condition::aged && !refreshed_ && multigrid_;

@@ -79,12 +79,13 @@ TEST_P(PointBasis, GivesTheSameOperatorAfterBondsBreak) {
 TEST_P(PointBasis, TakesAnAffineFieldAtItsCoordinatesToTheNodes) {
   const auto affine = [](const Point2& x, int c) { return c == 0 ? 2. - x[0] + 3. * x[1] : 0.5 * x[0] - x[1]; };
   Vector at_unknowns(body.dofs->owned_dofs()), actual(at_unknowns.getMap());
-  const auto coordinates = basis->coordinates();
+  const auto nodes = body.node_coordinates();
+  auto coordinates = nodes;
+  basis->move_to_points(coordinates);
   const auto values = at_unknowns.getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (std::size_t i = 0; i < values.extent(0); ++i) values(i, 0) = affine(coordinates[i / 2], static_cast<int>(i % 2));
   basis->apply(at_unknowns, actual);
   const auto results = actual.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto nodes = body.node_coordinates();
   for (std::size_t i = 0; i < results.extent(0); ++i) {
     EXPECT_NEAR(results(i, 0), affine(nodes[i / 2], static_cast<int>(i % 2)), 1e-12 * 100.);
   }

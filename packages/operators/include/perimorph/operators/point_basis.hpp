@@ -28,8 +28,9 @@ class PointBasis : public Tpetra::Operator<double> {
   /// Whether the q-th "node" of a local element is its q-th point. The same on every rank that has the element.
   bool holds(int element) const { return holds_[element]; }
 
-  /// Where each owned node's unknowns are displacements, [length].
-  std::vector<base::Point<dim>> coordinates() const;
+  /// Moves nodes whose unknowns are a point's to that point. Local.
+  /// @param coordinates of the owned nodes, [length]
+  void move_to_points(std::vector<base::Point<dim>>& coordinates) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return model_.dofs.owned_dofs(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return model_.dofs.owned_dofs(); }

@@ -29,7 +29,9 @@ class LinearSolver {
                     const NearNullSpace& near_null_space, const Teuchos::RCP<const Operator>& basis = Teuchos::null);
 
   /// The preconditioner's matrix has new values. Local.
-  void note_change() { has_changed_ = true; }
+  void note_change() {
+    if (condition_ == Condition::good) condition_ = Condition::changed;
+  }
 
   /// The preconditioner is rebuilt before the next solve: nothing that comes depends on solves before. Local.
   void forget();
@@ -41,7 +43,7 @@ class LinearSolver {
   int solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 
  private:
-  enum class Condition { missing, aged, good };
+  enum class Condition { missing, aged, changed, good };
   using Cycle = Multigrid::Cycle;
 
   SolverParameters parameters_;
@@ -53,8 +55,7 @@ class LinearSolver {
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
   Condition condition_ = Condition::missing;
-  bool refreshed_ = false;    ///< since the last rebuild
-  bool has_changed_ = false;  ///< the matrix, since the finest level took its values
+  bool refreshed_ = false;  ///< since the last rebuild
   Cycle cycle_ = Cycle::fast;
 
   bool is_factorized() const;
