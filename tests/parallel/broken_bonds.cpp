@@ -10,6 +10,7 @@ namespace perimorph::tests {
 namespace {
 
 using base::GlobalId;
+using mesh::ElementType;
 
 /// A bond by the global ids of its points; trivially copyable, so that it can travel.
 struct Ends {
@@ -118,13 +119,14 @@ std::vector<Example> examples() {
           {"WorstThirdFirst", plate_that_breaks_worst_first(), {0.3, 0.5, 0.6}}};
 }
 
-/// A block of 8 x 6 x 2 cubes, or of these cut into tetrahedra, with an edge crack along faces of elements, pulled
-/// apart at the cracked side as the plates. Tetrahedra have three times the points, and so a shorter horizon.
-SpecimenIn<3> block_with_edge_crack(bool tetrahedra) {
-  mesh::Mesh<3> whole = brick({8, 6, 2, 0., tetrahedra});
+/// A block of 8 x 6 x 2 cubes, or of these cut up, with an edge crack along faces of elements, pulled apart at the
+/// cracked side as the plates. Cut up they have more points, and so a shorter horizon.
+SpecimenIn<3> block_with_edge_crack(ElementType type) {
+  mesh::Mesh<3> whole = brick({8, 6, 2, 0., type});
   const auto crack = mesh::polygon({{0., 3., 0.}, {3., 3., 0.}, {3., 3., 2.}, {0., 3., 2.}});
   mesh::open_along<3>(whole, crack);
-  SpecimenIn<3> specimen{whole, tetrahedra ? 1.2 : 2., 0.2};
+  const bool has_many_points = type == ElementType::tet4 || type == ElementType::pyramid5;
+  SpecimenIn<3> specimen{whole, has_many_points ? 1.2 : 2., 0.2};
   for (const char* edge : {"bottom", "top"}) {
     auto& nodes = specimen.whole.node_sets[edge];
     nodes.erase(std::remove_if(nodes.begin(), nodes.end(), [&](int n) { return whole.coordinates[n][0] > 0.5; }),
@@ -175,11 +177,19 @@ TEST_P(BrokenBonds, AreTheSameOnAnyNumberOfRanks) {
 }
 
 TEST(BrokenBondsIn3d, OfHexahedraAreTheSameOnAnyNumberOfRanks) {
-  expect_the_same_on_all_ranks(block_with_edge_crack(false), {0.2, 0.5, 0.6}, 100);
+  expect_the_same_on_all_ranks(block_with_edge_crack(ElementType::hex8), {0.2, 0.5, 0.6}, 100);
 }
 
 TEST(BrokenBondsIn3d, OfTetrahedraAreTheSameOnAnyNumberOfRanks) {
-  expect_the_same_on_all_ranks(block_with_edge_crack(true), {0.1, 0.3, 0.4}, 100);
+  expect_the_same_on_all_ranks(block_with_edge_crack(ElementType::tet4), {0.1, 0.3, 0.4}, 100);
+}
+
+TEST(BrokenBondsIn3d, OfHexahedraAndWedgesAreTheSameOnAnyNumberOfRanks) {
+  expect_the_same_on_all_ranks(block_with_edge_crack(ElementType::wedge6), {0.2, 0.5, 0.6}, 100);
+}
+
+TEST(BrokenBondsIn3d, OfPyramidsAreTheSameOnAnyNumberOfRanks) {
+  expect_the_same_on_all_ranks(block_with_edge_crack(ElementType::pyramid5), {0.1, 0.3, 0.4}, 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Plates, BrokenBonds, testing::ValuesIn(examples()),

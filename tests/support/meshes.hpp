@@ -83,12 +83,14 @@ inline mesh::Mesh<2> grid(const Grid& g) {
 }
 
 struct Brick {
-  int nx, ny, nz;           ///< cubes of side 1
-  double distortion = 0.;   ///< of inner nodes
-  bool tetrahedra = false;  ///< each cube cut into six
+  int nx, ny, nz;          ///< cubes of side 1
+  double distortion = 0.;  ///< of inner nodes
+  /// Each cube is cut into six tetrahedra, three pyramids or two wedges; every second column of cubes stays whole
+  /// between wedges.
+  mesh::ElementType type = mesh::ElementType::hex8;
 };
 
-/// A whole block of hexahedra from the origin, or of tetrahedra, on one rank. Node sets "left" and "right" (x),
+/// A whole block from the origin, on one rank. Node sets "left" and "right" (x),
 /// "bottom" and "top" (y), "back" and "front" (z), "all" and "boundary"; block "body".
 inline mesh::Mesh<3> brick(const Brick& b) {
   mesh::Mesh<3> mesh;
@@ -126,13 +128,26 @@ inline mesh::Mesh<3> brick(const Brick& b) {
             c.push_back(n);
           }
         }
-        if (!b.tetrahedra) {
+        if (b.type == mesh::ElementType::tet4) {
+          // All six around the diagonal from corner 0 to corner 6: neighbouring cubes cut their common face alike.
+          const int around[] = {1, 2, 3, 7, 4, 5};
+          for (int t = 0; t < 6; ++t) add(b.type, {c[0], c[around[t]], c[around[(t + 1) % 6]], c[6]});
+        } else if (b.type == mesh::ElementType::pyramid5 && (i + j + k) % 2 == 0) {
+          // On the faces without corner 6, with their tips there; the neighbours are turned round, and so cut faces
+          // alike.
+          for (const auto& f : {std::array{0, 1, 2, 3}, {0, 3, 7, 4}, {0, 4, 5, 1}}) {
+            add(b.type, {c[f[0]], c[f[1]], c[f[2]], c[f[3]], c[6]});
+          }
+        } else if (b.type == mesh::ElementType::pyramid5) {
+          for (const auto& f : {std::array{6, 5, 4, 7}, {6, 2, 1, 5}, {6, 7, 3, 2}}) {
+            add(b.type, {c[f[0]], c[f[1]], c[f[2]], c[f[3]], c[0]});
+          }
+        } else if (b.type == mesh::ElementType::wedge6 && (i + j) % 2 == 0) {
+          add(b.type, {c[0], c[1], c[2], c[4], c[5], c[6]});
+          add(b.type, {c[0], c[2], c[3], c[4], c[6], c[7]});
+        } else {
           add(mesh::ElementType::hex8, c);
-          continue;
         }
-        // All six around the diagonal from corner 0 to corner 6: neighbouring cubes cut their common face alike.
-        const int around[] = {1, 2, 3, 7, 4, 5};
-        for (int t = 0; t < 6; ++t) add(mesh::ElementType::tet4, {c[0], c[around[t]], c[around[(t + 1) % 6]], c[6]});
       }
     }
   }

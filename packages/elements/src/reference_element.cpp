@@ -3,9 +3,11 @@
 #include <Intrepid2_CellTools.hpp>
 #include <Intrepid2_DefaultCubatureFactory.hpp>
 #include <Intrepid2_HGRAD_HEX_C1_FEM.hpp>
+#include <Intrepid2_HGRAD_PYR_C1_FEM.hpp>
 #include <Intrepid2_HGRAD_QUAD_C1_FEM.hpp>
 #include <Intrepid2_HGRAD_TET_C1_FEM.hpp>
 #include <Intrepid2_HGRAD_TRI_C1_FEM.hpp>
+#include <Intrepid2_HGRAD_WEDGE_C1_FEM.hpp>
 #include <map>
 #include <memory>
 
@@ -28,6 +30,10 @@ std::unique_ptr<Basis> linear_basis(ElementType type) {
       return std::make_unique<Intrepid2::Basis_HGRAD_QUAD_C1_FEM<Device>>();
     case ElementType::tet4:
       return std::make_unique<Intrepid2::Basis_HGRAD_TET_C1_FEM<Device>>();
+    case ElementType::pyramid5:
+      return std::make_unique<Intrepid2::Basis_HGRAD_PYR_C1_FEM<Device>>();
+    case ElementType::wedge6:
+      return std::make_unique<Intrepid2::Basis_HGRAD_WEDGE_C1_FEM<Device>>();
     case ElementType::hex8:
       return std::make_unique<Intrepid2::Basis_HGRAD_HEX_C1_FEM<Device>>();
   }
@@ -36,9 +42,9 @@ std::unique_ptr<Basis> linear_basis(ElementType type) {
 
 /// Degree of polynomials that the rule integrates exactly; n Gauss points along an axis give 2n - 1.
 int cubature_degree(ElementType type, int points_per_direction) {
-  const bool simplex = type == ElementType::tri3 || type == ElementType::tet4;
+  const bool has_simplex = type == ElementType::tri3 || type == ElementType::tet4 || type == ElementType::wedge6;
   static constexpr int simplex_degrees[] = {1, 2, 4};
-  return simplex ? simplex_degrees[points_per_direction - 1] : 2 * points_per_direction - 1;
+  return has_simplex ? simplex_degrees[points_per_direction - 1] : 2 * points_per_direction - 1;
 }
 
 template <int dim>

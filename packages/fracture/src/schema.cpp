@@ -109,7 +109,8 @@ void declare_peridynamics(ParameterList& root) {
   peridynamics.set(
       "Points per Direction", 2,
       "Gauss points of a quadrilateral or hexahedron along each of its directions [-]: the material points that bonds "
-      "join, and at which strains are taken. 2 or 3; of triangles then 3 or 6, of tetrahedra 4 or 11. 3 makes five "
+      "join, and at which strains are taken. 2 or 3; of triangles then 3 or 6, of tetrahedra 4 or 11, of wedges 6 or "
+      "18. 3 makes five "
       "times as many bonds, in three dimensions eleven times. With a characteristic length of a quarter of an element "
       "or "
       "less, cracks are then held up half as much; the calibration is as \"Analytic\".",

@@ -277,20 +277,20 @@ class Reader {
                              fmt::join(nodes, ", ")));
   }
 
-  /// A tetrahedron has three nodes in its lower face, one in its upper.
+  /// A wedge has three nodes in its lower and in its upper face, a pyramid four and one, a tetrahedron three and one.
   Reduced reduced_solid(const Nodes& nodes, std::int64_t number) const {
     if (n_different(nodes) == nodes.size()) return {Shape::hexahedron, nodes};
     const Nodes lower_face = without_repetition({nodes.begin(), nodes.begin() + 4});
     const Nodes upper_face = without_repetition({nodes.begin() + 4, nodes.end()});
-    if (lower_face.size() == 3 && upper_face.size() == 1 && n_different(nodes) == 4) {
-      return {Shape::tetrahedron, {lower_face[0], lower_face[1], lower_face[2], upper_face[0]}};
-    }
-    const bool is_wedge = lower_face.size() == 3 && upper_face.size() == 3;
-    const bool is_pyramid = lower_face.size() == 4 && upper_face.size() == 1;
-    cursor_.fail(fmt::format("element {} is {}; allowed are hexahedra and tetrahedra", number,
-                             is_wedge     ? "a wedge"
-                             : is_pyramid ? "a pyramid"
-                                          : "collapsed to nodes " + fmt::format("{}", fmt::join(nodes, ", "))));
+    const std::map<std::pair<std::size_t, std::size_t>, Shape> collapsed = {
+        {{3, 3}, Shape::wedge}, {{4, 1}, Shape::pyramid}, {{3, 1}, Shape::tetrahedron}};
+    const auto shape = collapsed.find({lower_face.size(), upper_face.size()});
+    Nodes corners = lower_face;
+    corners.insert(corners.end(), upper_face.begin(), upper_face.end());
+    if (shape != collapsed.end() && n_different(corners) == corners.size()) return {shape->second, corners};
+    cursor_.fail(
+        fmt::format("element {} has nodes {}, which are the corners of no hexahedron, wedge, pyramid or tetrahedron",
+                    number, fmt::join(nodes, ", ")));
   }
 
   // ---- components ----

@@ -8,7 +8,7 @@ namespace perimorph::mesh {
 
 namespace {
 
-constexpr int n_types = 4;
+constexpr int n_types = 6;
 
 struct Properties {
   int n_corners;
@@ -18,7 +18,7 @@ struct Properties {
 
 /// In the order of ElementType.
 constexpr std::array<Properties, n_types> properties = {
-    {{3, 2, "TRI3"}, {4, 2, "QUAD4"}, {4, 3, "TETRA4"}, {8, 3, "HEX8"}}};
+    {{3, 2, "TRI3"}, {4, 2, "QUAD4"}, {4, 3, "TETRA4"}, {5, 3, "PYRAMID5"}, {6, 3, "WEDGE6"}, {8, 3, "HEX8"}}};
 
 using Corners = std::vector<int>;
 

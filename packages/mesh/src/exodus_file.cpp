@@ -47,20 +47,8 @@ constexpr Spelling spellings[] = {
     {"TRISHELL", Shape::triangle, true}, {"QUAD", Shape::quadrangle, false},    {"QUAD4", Shape::quadrangle, false},
     {"SHELL", Shape::quadrangle, true},  {"SHELL4", Shape::quadrangle, true},   {"TETRA", Shape::tetrahedron, false},
     {"TET", Shape::tetrahedron, false},  {"TETRA4", Shape::tetrahedron, false}, {"TET4", Shape::tetrahedron, false},
-    {"HEX", Shape::hexahedron, false},   {"HEX8", Shape::hexahedron, false}};
-
-ElementType element_type(Shape shape) {
-  switch (shape) {
-    case Shape::triangle:
-      return ElementType::tri3;
-    case Shape::quadrangle:
-      return ElementType::quad4;
-    case Shape::tetrahedron:
-      return ElementType::tet4;
-    default:
-      return ElementType::hex8;
-  }
-}
+    {"PYRAMID", Shape::pyramid, false},  {"PYRAMID5", Shape::pyramid, false},   {"WEDGE", Shape::wedge, false},
+    {"WEDGE6", Shape::wedge, false},     {"HEX", Shape::hexahedron, false},     {"HEX8", Shape::hexahedron, false}};
 
 /// The shape of a side with so many nodes of an element of this dimension.
 Shape side_shape(int element_dimension, std::size_t n_side_nodes) {
@@ -266,8 +254,10 @@ class Reader {
     const auto found = std::find_if(std::begin(spellings), std::end(spellings),
                                     [&](const Spelling& spelling) { return type == spelling.name; });
     if (found == std::end(spellings) || n_nodes(found->shape) != n_corners) {
-      fail("block \"{}\" has elements of type \"{}\" with {} nodes; allowed are TRI3, QUAD4, TETRA4 and HEX8", block,
-           excerpt(type), n_corners);
+      fail(
+          "block \"{}\" has elements of type \"{}\" with {} nodes; allowed are TRI3, QUAD4, TETRA4, PYRAMID5, WEDGE6 "
+          "and HEX8",
+          block, excerpt(type), n_corners);
     }
     return *found;
   }

@@ -17,7 +17,8 @@ constexpr int no_groups = 0;  // index into MeshFile::group_lists
 
 /// By gmsh's numbers of kinds of elements (its manual, "Node ordering" and "MSH file format").
 const std::map<int, Shape> shapes = {{15, Shape::point},     {1, Shape::line},        {2, Shape::triangle},
-                                     {3, Shape::quadrangle}, {4, Shape::tetrahedron}, {5, Shape::hexahedron}};
+                                     {3, Shape::quadrangle}, {4, Shape::tetrahedron}, {5, Shape::hexahedron},
+                                     {6, Shape::wedge},      {7, Shape::pyramid}};
 
 const Advice advice = {
     "mesh it with gmsh -2 (or -3), and put what is to be computed into a physical surface (or volume)",
@@ -29,10 +30,9 @@ const Advice advice = {
 
 std::string name_of_other_kind(int number) {
   static const std::map<int, const char*> names = {
-      {6, "6-node prism"},       {7, "5-node pyramid"},       {8, "3-node line"},         {9, "6-node triangle"},
-      {10, "9-node quadrangle"}, {11, "10-node tetrahedron"}, {12, "27-node hexahedron"}, {13, "18-node prism"},
-      {14, "14-node pyramid"},   {16, "8-node quadrangle"},   {17, "20-node hexahedron"}, {18, "15-node prism"},
-      {19, "13-node pyramid"}};
+      {8, "3-node line"},         {9, "6-node triangle"}, {10, "9-node quadrangle"}, {11, "10-node tetrahedron"},
+      {12, "27-node hexahedron"}, {13, "18-node prism"},  {14, "14-node pyramid"},   {16, "8-node quadrangle"},
+      {17, "20-node hexahedron"}, {18, "15-node prism"},  {19, "13-node pyramid"}};
   const auto found = names.find(number);
   return found == names.end() ? fmt::format("of gmsh's kind {}", number)
                               : fmt::format("a {} (gmsh's kind {})", found->second, number);
@@ -285,8 +285,8 @@ class Reader {
     const auto shape = shapes.find(kind);
     if (shape == shapes.end()) {
       cursor_.fail(
-          fmt::format("element {} is {}; allowed are 3-node triangles and 4-node quadrangles in 2D, 4-node tetrahedra "
-                      "and 8-node hexahedra in 3D (with Mesh.ElementOrder = 1)",
+          fmt::format("element {} is {}; allowed are 3-node triangles and 4-node quadrangles in 2D, 4-node tetrahedra, "
+                      "5-node pyramids, 6-node prisms and 8-node hexahedra in 3D (with Mesh.ElementOrder = 1)",
                       tag, name_of_other_kind(kind)));
     }
     result_.begin_element(tag, shape->second, groups);

@@ -22,14 +22,6 @@ constexpr std::size_t most_listed = 5;             // items shown in an error me
 constexpr std::size_t longest_name = 200;
 constexpr double largest_coordinate = 1e100;  // so that squares and volumes are finite numbers, too
 
-ElementType element_type(Shape shape) {
-  static const std::map<Shape, ElementType> types = {{Shape::triangle, ElementType::tri3},
-                                                     {Shape::quadrangle, ElementType::quad4},
-                                                     {Shape::tetrahedron, ElementType::tet4},
-                                                     {Shape::hexahedron, ElementType::hex8}};
-  return types.at(shape);
-}
-
 /// What something of a dimension is called.
 const char* entity_name(int dimension) {
   static constexpr std::array<const char*, 4> names = {"point", "curve", "surface", "volume"};

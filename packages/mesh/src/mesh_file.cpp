@@ -11,12 +11,16 @@ struct Properties {
 };
 
 /// In the order of Shape.
-constexpr std::array<Properties, 6> properties = {{{0, 1}, {1, 2}, {2, 3}, {2, 4}, {3, 4}, {3, 8}}};
+constexpr std::array<Properties, 8> properties = {{{0, 1}, {1, 2}, {2, 3}, {2, 4}, {3, 4}, {3, 5}, {3, 6}, {3, 8}}};
 
 }  // namespace
 
 int dimension(Shape shape) { return properties[static_cast<std::size_t>(shape)].dimension; }
 int n_nodes(Shape shape) { return properties[static_cast<std::size_t>(shape)].n_nodes; }
+
+ElementType element_type(Shape shape) {
+  return static_cast<ElementType>(static_cast<int>(shape) - static_cast<int>(Shape::triangle));
+}
 
 void MeshFile::begin_element(std::int64_t tag, Shape shape, int group_list) {
   element_tags.push_back(tag);

@@ -7,13 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "perimorph/mesh/element_type.hpp"
+
 namespace perimorph::mesh {
 
 /// What a mesh file may consist of: points and linear elements. The first ones serve as members of groups only.
-enum class Shape : std::uint8_t { point, line, triangle, quadrangle, tetrahedron, hexahedron };
+enum class Shape : std::uint8_t { point, line, triangle, quadrangle, tetrahedron, pyramid, wedge, hexahedron };
 
 int dimension(Shape shape);
 int n_nodes(Shape shape);
+ElementType element_type(Shape shape);  ///< of a triangle or what comes after it
 
 /// A group of elements of one dimension: that dimension, and a number.
 using GroupKey = std::pair<int, int>;

@@ -15,6 +15,10 @@ inline shards::CellTopology topology(ElementType type) {
       return shards::getCellTopologyData<shards::Quadrilateral<4>>();
     case ElementType::tet4:
       return shards::getCellTopologyData<shards::Tetrahedron<4>>();
+    case ElementType::pyramid5:
+      return shards::getCellTopologyData<shards::Pyramid<5>>();
+    case ElementType::wedge6:
+      return shards::getCellTopologyData<shards::Wedge<6>>();
     default:
       return shards::getCellTopologyData<shards::Hexahedron<8>>();
   }

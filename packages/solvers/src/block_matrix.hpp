@@ -5,6 +5,7 @@
 #endif
 
 #include <Eigen/Core>
+#include <cstring>
 #include <vector>
 
 #include "ghost_exchange.hpp"
@@ -85,7 +86,9 @@ class BlockMatrix {
     if constexpr (side_by_side == 1) return Lanes::Constant(*x);
     Lanes factors;
 #ifdef __SSE__  // written as four numbers it would be put together one by one
-    const __m128 pair = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(x)));
+    double both;
+    std::memcpy(&both, x, sizeof both);
+    const __m128 pair = _mm_castpd_ps(_mm_set_sd(both));
     _mm_store_ps(factors.data(), _mm_unpacklo_ps(pair, pair));
 #else
     factors << x[0], x[0], x[1], x[1];

@@ -4,6 +4,7 @@
 
 #include <Teuchos_DefaultComm.hpp>
 #include <Tpetra_Core.hpp>
+#include <map>
 
 #include "perimorph/bonds/crack.hpp"
 #include "perimorph/mesh/distribute.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double horizon = 1.5, characteristic_length = 0.3;  // spacing 1
 using Cracks = std::vector<mesh::CrackFacet<3>>;
+using mesh::ElementType;
 
 /// A body with all its bonds.
 struct Bonded {
@@ -64,7 +66,13 @@ Census census(const Bonded& body, double height, IsInside is_inside) {
   return counts;
 }
 
-class VisibilityIn3d : public testing::TestWithParam<bool> {};  // tetrahedra
+/// Sides of elements on so many squares: every second one is cut between pyramids, each between tetrahedra.
+int n_sides(int n_squares, ElementType type) {
+  if (type == ElementType::pyramid5) return n_squares * 3 / 2;
+  return type == ElementType::tet4 ? 2 * n_squares : n_squares;
+}
+
+class VisibilityIn3d : public testing::TestWithParam<ElementType> {};
 
 TEST_P(VisibilityIn3d, NoBondPassesAPolygonAndAllAroundItExist) {
   const auto is_inside = [](const Point3& x) { return x[0] + 0.5 * x[2] < 5.03; };
@@ -82,7 +90,7 @@ TEST_P(VisibilityIn3d, NoBondPassesAPolygonAndAllAroundItExist) {
 TEST_P(VisibilityIn3d, ACrackAlongFacesOpensTheMeshAndItsFacesCutTheSameBonds) {
   mesh::Mesh<3> whole = brick({5, 6, 4, 0., GetParam()});
   const Cracks crack = mesh::polygon({{0., 3., 0.}, {3., 3., 0.}, {3., 3., 4.}, {0., 3., 4.}});
-  ASSERT_EQ(mesh::open_along<3>(whole, crack), GetParam() ? 24 : 12);
+  ASSERT_EQ(mesh::open_along<3>(whole, crack), n_sides(12, GetParam()));
   const auto is_inside = [](const Point3& x) { return x[0] < 3. + 1e-9; };
 
   const Census by_faces = census(Bonded(whole, {}), 3., is_inside),
@@ -136,7 +144,7 @@ TEST_P(VisibilityIn3d, TheBrokenSurfaceIsBothFacesOfACrack) {
 
   const auto surface = bonds::broken_surface(body.mesh, body.bonds);
 
-  EXPECT_EQ(surface.size(), GetParam() ? 32u : 16u);
+  EXPECT_EQ(static_cast<int>(surface.size()), 2 * n_sides(8, GetParam()));
   for (const auto& side : surface) {
     for (const auto& x : mesh::corner_points(body.mesh, side)) {
       EXPECT_EQ(x[1], 3.);
@@ -145,8 +153,10 @@ TEST_P(VisibilityIn3d, TheBrokenSurfaceIsBothFacesOfACrack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(HexahedraAndTetrahedra, VisibilityIn3d, testing::Bool(),
-                         [](const auto& tetrahedra) { return tetrahedra.param ? "Tetrahedra" : "Hexahedra"; });
+INSTANTIATE_TEST_SUITE_P(Elements, VisibilityIn3d,
+                         testing::Values(ElementType::hex8, ElementType::tet4, ElementType::wedge6,
+                                         ElementType::pyramid5),
+                         [](const auto& type) { return mesh::exodus_name(type.param); });
 
 }  // namespace
 }  // namespace perimorph::tests

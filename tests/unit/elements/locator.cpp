@@ -67,14 +67,20 @@ TEST(LocatorWithAHole, FindsNothingInIt) {
   EXPECT_TRUE(locator.find(Point2(0.3, 0.5)));
 }
 
-TEST(ShapeInThreeDimensions, InterpolatesInHexahedraAndTetrahedra) {
+TEST(ShapeInThreeDimensions, InterpolatesInAllElements) {
   using Point3 = base::Point<3>;
   const std::vector<Point3> cube = {{0., 0., 0.}, {2., 0., 0.}, {2., 1., 0.},    {0., 1., 0.},
                                     {0., 0., 1.}, {2., 0., 1.}, {2.2, 1.1, 1.3}, {0., 1., 1.}};
   const std::vector<Point3> tetrahedron = {{0., 0., 0.}, {1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
+  const std::vector<Point3> wedge = {tetrahedron[0], tetrahedron[1], tetrahedron[2],
+                                     {0., 0., 1.},   {1., 0.2, 1.3}, {0., 1., 1.}};
+  const std::vector<Point3> pyramid = {cube[0], cube[1], cube[2], cube[3], {0.2, 0.3, 1.2}};
   const Point3 x(0.3, 0.2, 0.25);
-  for (const auto& [type, corners] :
-       {std::pair{mesh::ElementType::hex8, cube}, {mesh::ElementType::tet4, tetrahedron}}) {
+  for (const auto& [type, corners] : {std::pair{mesh::ElementType::hex8, cube},
+                                      {mesh::ElementType::tet4, tetrahedron},
+                                      {mesh::ElementType::wedge6, wedge},
+                                      {mesh::ElementType::pyramid5, pyramid}}) {
+    SCOPED_TRACE(mesh::exodus_name(type));
     const auto shape = elements::shape_at<3>(type, corners, x);
     ASSERT_TRUE(shape);
     Point3 sum = Point3::Zero();

@@ -32,15 +32,20 @@ TEST(ReferenceElement, ShapeFunctionsSumToOneAndWeightsToTheVolume) {
   expect_partition_of_unity<2>(ElementType::tri3, 0.5);
   expect_partition_of_unity<3>(ElementType::hex8, 8.);
   expect_partition_of_unity<3>(ElementType::tet4, 1. / 6.);
+  expect_partition_of_unity<3>(ElementType::pyramid5, 4. / 3.);
+  expect_partition_of_unity<3>(ElementType::wedge6, 1.);
 }
 
 TEST(ReferenceElement, RulesHaveTheNumberOfPointsTheySay) {
-  const int squares[] = {1, 4, 9}, cubes[] = {1, 8, 27}, triangles[] = {1, 3, 6}, tetrahedra[] = {1, 4, 11};
+  const int squares[] = {1, 4, 9}, cubes[] = {1, 8, 27}, triangles[] = {1, 3, 6}, tetrahedra[] = {1, 4, 11},
+            wedges[] = {1, 6, 18};
   for (int n = 1; n <= 3; ++n) {
     EXPECT_EQ(reference_element<2>(ElementType::quad4, n).n_points, squares[n - 1]);
     EXPECT_EQ(reference_element<3>(ElementType::hex8, n).n_points, cubes[n - 1]);
     EXPECT_EQ(reference_element<2>(ElementType::tri3, n).n_points, triangles[n - 1]);
     EXPECT_EQ(reference_element<3>(ElementType::tet4, n).n_points, tetrahedra[n - 1]);
+    EXPECT_EQ(reference_element<3>(ElementType::pyramid5, n).n_points, cubes[n - 1]);
+    EXPECT_EQ(reference_element<3>(ElementType::wedge6, n).n_points, wedges[n - 1]);
   }
 }
 
@@ -62,6 +67,8 @@ TEST(ReferenceElement, TheUsualRuleIntegratesSquaresExactly) {
   EXPECT_NEAR(second_moment<2>(ElementType::tri3, {0, 1, 0}), 1. / 12., rounding);
   EXPECT_NEAR(second_moment<3>(ElementType::hex8, {-1, 1, 1, -1, -1, 1, 1, -1}), 8. / 3., 8. * rounding);
   EXPECT_NEAR(second_moment<3>(ElementType::tet4, {0, 1, 0, 0}), 1. / 60., rounding);
+  EXPECT_NEAR(second_moment<3>(ElementType::pyramid5, {-1, 1, 1, -1, 0}), 4. / 15., rounding);
+  EXPECT_NEAR(second_moment<3>(ElementType::wedge6, {0, 1, 0, 0, 1, 0}), 1. / 6., rounding);
 }
 
 TEST(ReferenceElement, IsMadeOncePerTypeAndRule) {

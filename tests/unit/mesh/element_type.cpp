@@ -11,20 +11,24 @@
 namespace perimorph::mesh {
 namespace {
 
-constexpr std::array<ElementType, 4> all_types = {ElementType::tri3, ElementType::quad4, ElementType::tet4,
-                                                  ElementType::hex8};
+constexpr std::array<ElementType, 6> all_types = {ElementType::tri3,     ElementType::quad4,  ElementType::tet4,
+                                                  ElementType::pyramid5, ElementType::wedge6, ElementType::hex8};
 
 TEST(ElementType, SidesAreNumberedAsInExodus) {
   EXPECT_EQ(sides(ElementType::quad4), (std::vector<std::vector<int>>{{0, 1}, {1, 2}, {2, 3}, {3, 0}}));
   EXPECT_EQ(sides(ElementType::tri3), (std::vector<std::vector<int>>{{0, 1}, {1, 2}, {2, 0}}));
   EXPECT_EQ(sides(ElementType::tet4), (std::vector<std::vector<int>>{{0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 2, 1}}));
+  EXPECT_EQ(sides(ElementType::pyramid5),
+            (std::vector<std::vector<int>>{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 3, 2, 1}}));
+  EXPECT_EQ(sides(ElementType::wedge6),
+            (std::vector<std::vector<int>>{{0, 1, 4, 3}, {1, 2, 5, 4}, {0, 3, 5, 2}, {0, 2, 1}, {3, 4, 5}}));
   EXPECT_EQ(sides(ElementType::hex8),
             (std::vector<std::vector<int>>{
                 {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}}));
 }
 
 TEST(ElementType, SidesOfASolidAreOrientedConsistently) {
-  for (const ElementType type : {ElementType::tet4, ElementType::hex8}) {
+  for (const ElementType type : {ElementType::tet4, ElementType::pyramid5, ElementType::wedge6, ElementType::hex8}) {
     std::map<std::pair<int, int>, int> directed_edges;
     for (const auto& side : sides(type)) {
       for (std::size_t c = 0; c < side.size(); ++c) ++directed_edges[{side[c], side[(c + 1) % side.size()]}];
@@ -39,7 +43,7 @@ TEST(ElementType, SidesOfASolidAreOrientedConsistently) {
 TEST(ElementType, HasTheNamesThatExodusKnows) {
   std::vector<std::string> names;
   for (const ElementType type : all_types) names.push_back(exodus_name(type));
-  EXPECT_THAT(names, testing::ElementsAre("TRI3", "QUAD4", "TETRA4", "HEX8"));
+  EXPECT_THAT(names, testing::ElementsAre("TRI3", "QUAD4", "TETRA4", "PYRAMID5", "WEDGE6", "HEX8"));
 }
 
 TEST(ElementType, HasAsManyCornersAsItsSidesUse) {

@@ -119,10 +119,10 @@ TEST(GmshErrors, PartitionedMesh) {
 // ---- elements ----
 
 TEST(GmshErrors, ElementsOfAnotherKind) {
-  EXPECT_THAT(
-      error_of(replaced(two_squares_2_2, "12 3 2 1 3 1 2 5 4", "12 9 2 1 3 1 2 5 4 3 6")),
-      HasSubstr("element 12 is a 6-node triangle (gmsh's kind 9); allowed are 3-node triangles and 4-node "
-                "quadrangles in 2D, 4-node tetrahedra and 8-node hexahedra in 3D (with Mesh.ElementOrder = 1)"));
+  EXPECT_THAT(error_of(replaced(two_squares_2_2, "12 3 2 1 3 1 2 5 4", "12 9 2 1 3 1 2 5 4 3 6")),
+              HasSubstr("element 12 is a 6-node triangle (gmsh's kind 9); allowed are 3-node triangles and 4-node "
+                        "quadrangles in 2D, 4-node tetrahedra, 5-node pyramids, 6-node prisms and 8-node hexahedra in "
+                        "3D (with Mesh.ElementOrder = 1)"));
   EXPECT_THAT(error_of(replaced(two_squares_2_2, "12 3 2", "12 92 2")),
               HasSubstr("element 12 is of gmsh's kind 92; allowed"));
 }

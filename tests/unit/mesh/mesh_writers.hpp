@@ -127,7 +127,8 @@ inline std::string component(const std::string& name, const std::string& kind, c
   return text;
 }
 
-/// The nodes of an element as ANSYS has them: triangles and tetrahedra are collapsed quadrangles and hexahedra.
+/// The nodes of an element as ANSYS has them: triangles are collapsed quadrangles; all solids but hexahedra collapsed
+/// ones.
 inline std::vector<int> ansys_nodes(ElementType type, const int* n) {
   switch (type) {
     case ElementType::tri3:
@@ -136,6 +137,10 @@ inline std::vector<int> ansys_nodes(ElementType type, const int* n) {
       return {n[0], n[1], n[2], n[3]};
     case ElementType::tet4:
       return {n[0], n[1], n[2], n[2], n[3], n[3], n[3], n[3]};
+    case ElementType::pyramid5:
+      return {n[0], n[1], n[2], n[3], n[4], n[4], n[4], n[4]};
+    case ElementType::wedge6:
+      return {n[0], n[1], n[2], n[2], n[3], n[4], n[5], n[5]};
     default:
       return {n, n + 8};
   }

@@ -10,11 +10,17 @@ namespace perimorph::elements {
 /// Calls function(std::integral_constant<int, n>) with the number of corners as a compile-time constant.
 template <int dim, class Function>
 void with_corners(int n_corners, Function&& function) {
-  constexpr int simplex = dim + 1, cube = 1 << dim;
+  constexpr int simplex = dim + 1, cube = 1 << dim, pyramid = 5, wedge = 6;
   if (n_corners == simplex) {
     function(std::integral_constant<int, simplex>{});
-  } else {
+  } else if (n_corners == cube) {
     function(std::integral_constant<int, cube>{});
+  } else if constexpr (dim == 3) {
+    if (n_corners == pyramid) {
+      function(std::integral_constant<int, pyramid>{});
+    } else {
+      function(std::integral_constant<int, wedge>{});
+    }
   }
 }
 
