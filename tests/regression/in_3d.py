@@ -3,6 +3,7 @@
     in_3d.py PERIMORPH MPIEXEC
 """
 
+import itertools
 import unittest
 
 import netCDF4
@@ -14,8 +15,9 @@ import restart
 NX, NY, NZ = 10, 8, 2  # cubes of size 1
 
 
-def mesh():
-    """gmsh's format 2.2: block "body", the right face "right", the two left edges "lower" and "upper"."""
+def mesh(is_mixed=False):
+    """gmsh's format 2.2: block "body", the right face "right", the two left edges "lower" and "upper". If it is mixed, two
+    cubes are cut into wedges, and one into pyramids and tetrahedra around its middle."""
     names = ['1 1 "lower"', '1 2 "upper"', '2 3 "right"', '3 4 "body"']
     node = lambda i, j, k: (k * (NY + 1) + j) * (NX + 1) + i + 1
     nodes = [f"{node(i, j, k)} {i} {j} {k}" for k in range(NZ + 1) for j in range(NY + 1) for i in range(NX + 1)]
@@ -23,7 +25,20 @@ def mesh():
     elements = [(1, group, [node(0, j, k), node(0, j, k + 1)]) for group, j in [(1, 0), (2, NY)] for k in range(NZ)]
     elements += [(3, 3, [node(NX, j, k), node(NX, j + 1, k), node(NX, j + 1, k + 1), node(NX, j, k + 1)])
                  for k in range(NZ) for j in range(NY)]
-    elements += [(5, 4, ring(i, j, k) + ring(i, j, k + 1)) for k in range(NZ) for j in range(NY) for i in range(NX)]
+    nodes.append(f"{len(nodes) + 1} 8.5 1.5 0.5")
+    middle = len(nodes)
+    for k, j, i in itertools.product(range(NZ), range(NY), range(NX)):
+        below, above = ring(i, j, k), ring(i, j, k + 1)
+        if is_mixed and (i, j) == (6, 6):
+            elements += [(6, 4, [lower[c] for lower in (below, above) for c in corners]) for corners in [(0, 1, 2), (0, 2, 3)]]
+        elif is_mixed and (i, j, k) == (8, 1, 0):
+            around = [[below[c], above[c], above[(c + 1) % 4], below[(c + 1) % 4]] for c in range(4)]
+            elements += [(7, 4, [*base, middle]) for base in [above[::-1], *around]]
+            elements += [(4, 4, [*(below[c] for c in corners), middle]) for corners in [(0, 1, 2), (0, 2, 3)]]
+        else:
+            elements.append((5, 4, below + above))
+    if not is_mixed:
+        nodes.pop()
     lines = [f"{n} {shape} 2 {group} {group} {' '.join(map(str, corners))}"
              for n, (shape, group, corners) in enumerate(elements, 1)]
     section = lambda name, lines: [f"${name}", str(len(lines)), *lines, f"$End{name}"]
@@ -103,6 +118,24 @@ class Runs(InThreeDimensions):
             for face in middle:  # each has its counterpart on the other side of the crack
                 self.assertEqual((abs(middle - face).max(axis=1) < 1e-9).sum(), 2)
         self.assertEqual(sizes[0], sizes[1])
+
+    def test_elements_of_one_block_may_be_of_all_shapes(self):
+        """Each shape is in blocks of its own, with a name and an id for each class."""
+        (self.folder / "plate.msh").write_text(mesh(is_mixed=True))
+        found = set()
+        for ranks in [1, 2]:
+            self.run_until(INCREMENTS, ranks=ranks)
+            for part in self.series():
+                with netCDF4.Dataset(part) as file:
+                    types = [file[f"connect{b}"].elem_type for b in range(1, len(file["eb_prop1"]) + 1)]
+                    found |= set(zip(driver.text_of(file["eb_names"]), map(int, file["eb_prop1"][:]), types))
+        first_ids = {"TETRA4": 11, "PYRAMID5": 21, "WEDGE6": 31, "HEX8": 41}
+        self.assertEqual({shape for _, _, shape in found}, set(first_ids))
+        for name, number, shape in found:
+            kind = ["FE", "MORPH", "PD", "DGFE"][number - first_ids[shape]]
+            self.assertEqual(name, f"body_{kind}" if shape == "TETRA4" else f"body_{kind}_{shape}")
+        self.assertIn(("body_DGFE_HEX8", 44, "HEX8"), found)
+        self.assertIn(("body_MORPH_PYRAMID5", 22, "PYRAMID5"), found)
 
     HEX_SIDES = [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [0, 4, 7, 3], [0, 3, 2, 1], [4, 5, 6, 7]]
 

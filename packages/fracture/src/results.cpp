@@ -71,7 +71,7 @@ std::set<BlockKey> all_keys(const base::Comm& comm, const std::vector<ElementRec
   return {all.begin(), all.end()};
 }
 
-/// The type of each block's elements; of the two, if it has both triangles and quadrilaterals (or the like), the first.
+/// The type of each block's elements; of several the first.
 std::map<int, mesh::ElementType> first_types(const std::set<BlockKey>& keys) {
   std::map<int, mesh::ElementType> types;
   for (const auto& key : keys) {
@@ -82,17 +82,18 @@ std::map<int, mesh::ElementType> first_types(const std::set<BlockKey>& keys) {
 }
 
 /// Blocks by material, class and type, elements in each by id. Returns each record's place in the file. A block's name
-/// and id depend on these three only, not on the topology: 11, 12, 13, 14 are FE to DGFE of the mesh's first block.
+/// and id depend on these three only, not on the topology: 11, 12, 13, 14 are FE to DGFE of the mesh's first block, 21 to
+/// 24 of its second. Elements of other types than a block's first are in blocks of their own, numbered after all these.
 template <int dim>
 std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records, const std::set<BlockKey>& keys,
                                   const std::vector<std::string>& block_names, io::ExodusModel<dim>& model) {
   const auto types = first_types(keys);
   std::map<BlockKey, std::size_t> block_of;
   for (const auto& key : keys) {
-    const bool is_second_type = key.type != types.at(key.block);
-    const int id = 10 * (key.block + 1) + key.kind + (is_second_type ? 5 : 1);
+    const int other_type = static_cast<int>(key.type) - static_cast<int>(types.at(key.block));
+    const int id = 10 * (other_type * static_cast<int>(block_names.size()) + key.block + 1) + key.kind + 1;
     std::string name = block_names[key.block] + "_" + kind_names[key.kind];
-    if (is_second_type) name += "_" + mesh::exodus_name(key.type);
+    if (other_type > 0) name += "_" + mesh::exodus_name(key.type);
     block_of[key] = model.blocks.size();
     model.blocks.push_back({name, key.type, {}, {}, id});
   }
