@@ -82,8 +82,9 @@ std::map<int, mesh::ElementType> first_types(const std::set<BlockKey>& keys) {
 }
 
 /// Blocks by material, class and type, elements in each by id. Returns each record's place in the file. A block's name
-/// and id depend on these three only, not on the topology: 11, 12, 13, 14 are FE to DGFE of the mesh's first block, 21 to
-/// 24 of its second. Elements of other types than a block's first are in blocks of their own, numbered after all these.
+/// and id depend on these three only, not on the topology: 11, 12, 13, 14 are FE to DGFE of the mesh's first block, 21
+/// to 24 of its second. Elements of other types than a block's first are in blocks of their own, numbered after all
+/// these.
 template <int dim>
 std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records, const std::set<BlockKey>& keys,
                                   const std::vector<std::string>& block_names, io::ExodusModel<dim>& model) {
