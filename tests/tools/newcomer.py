@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy
@@ -49,6 +50,24 @@ class Newcomer(unittest.TestCase):
         rows, columns = damaged.nonzero()
         self.assertGreater(rows.max() - rows.min(), 0.25 * height)  # a crack, upright
         self.assertLess(columns.max() - columns.min(), 0.15 * width)
+
+    def test_a_run_on_two_ranks_that_is_told_to_end_leaves_a_checkpoint(self):
+        """While a solve takes longer than mpirun leaves its processes after a signal, a second."""
+        case = self.clone / "inputs/stopped"
+        subprocess.run([self.clone / "tools/new-case", case, "--from", "block"], check=True, capture_output=True, timeout=60)
+        geometry = (case / "stopped.geo").read_text()
+        self.assertIn("dx = 1;", geometry)
+        (case / "stopped.geo").write_text(geometry.replace("dx = 1;", "dx = 0.5;"))
+        run = subprocess.Popen([self.clone / "tools/run", case / "stopped.xml", "-n", "2", "--output", case / "out"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        history = case / "out/history.csv"
+        while run.poll() is None and not (history.exists() and len(history.read_text().splitlines()) > 2):
+            time.sleep(0.1)
+        run.terminate()
+        told = run.communicate(timeout=100)[1]
+        self.assertEqual(run.returncode, 3, told)
+        self.assertIn("SIGTERM asked it to stop", told)
+        self.assertEqual(len(list((case / "out").glob("checkpoint-*.h5"))), 1)
 
     def test_what_cannot_be_installed_is_told(self):
         told = subprocess.run(
