@@ -32,7 +32,11 @@ struct Arguments {
 /// Every rank reads it; a mistake in it is an error on all ranks.
 fracture::Case read_case(const base::Comm& comm, const Arguments& arguments) {
   fracture::Case input;
-  base::on_all_ranks(comm, [&] { input = fracture::read_case(arguments.case_file, arguments.overrides); });
+  for (const bool is_first : {true, false}) {  // it tells the mistakes, and to find them may take reading the mesh
+    base::on_all_ranks(comm, [&] {
+      if (is_first == (comm.getRank() == 0)) input = fracture::read_case(arguments.case_file, arguments.overrides);
+    });
+  }
   return input;
 }
 

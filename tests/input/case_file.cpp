@@ -19,7 +19,7 @@ TEST_F(CaseFile, ValuesArriveInTheCase) {
 
   EXPECT_EQ(result.name, "plate");
   EXPECT_EQ(result.directory, folder_.string());
-  EXPECT_EQ(result.mesh_file, (folder_ / "plate.geo").string());
+  EXPECT_EQ(result.mesh_file, (folder_ / "plate.msh").string());
   EXPECT_EQ(result.elastic_model, perimorph::fracture::ElasticModel::plane_stress);
   EXPECT_EQ(result.critical_stretch, 0.05);
   EXPECT_FALSE(result.fracture_energy);
@@ -144,7 +144,7 @@ TEST_F(CaseFile, CommentsAndDeclarationAndByteOrderMarkAreFine) {
 }
 
 TEST_F(CaseFile, AbsoluteMeshPathStaysAsItIs) {
-  EXPECT_EQ(read(replaced(valid, "plate.geo", "/data/plate.msh")).mesh_file, "/data/plate.msh");
+  EXPECT_EQ(read(replaced(valid, "plate.msh", "/data/plate.msh")).mesh_file, "/data/plate.msh");
 }
 
 TEST(CaseInput, NotchedBeamIsValid) {

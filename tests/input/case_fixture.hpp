@@ -14,7 +14,7 @@
 // A valid case. The tests replace a piece of it, and count lines from its first.
 inline const std::string valid = R"xml(<ParameterList name="plate">
   <ParameterList name="Mesh">
-    <Parameter name="File" type="string" value="plate.geo"/>
+    <Parameter name="File" type="string" value="plate.msh"/>
   </ParameterList>
   <ParameterList name="Material">
     <Parameter name="Young's Modulus" type="double" value="30000"/>
@@ -79,6 +79,20 @@ inline const std::string valid = R"xml(<ParameterList name="plate">
 </ParameterList>
 )xml";
 
+/// A mesh with its groups, of one square or cube.
+inline std::string mesh_of(int dimension) {
+  const bool flat = dimension == 2;
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n";
+  for (const char* name : {"1 \"left\"", "2 \"right\"", "3 \"top\""})
+    text += (flat ? "1 " : "2 ") + std::string(name) + "\n";
+  text += std::to_string(dimension) + " 4 \"body\"\n$EndPhysicalNames\n";
+  return text + (flat ? "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n4\n1 1 2 1 1 1 4\n"
+                        "2 1 2 2 2 2 3\n3 1 2 3 3 3 4\n4 3 2 4 4 1 2 3 4\n$EndElements\n"
+                      : "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n"
+                        "$Elements\n4\n1 3 2 1 1 1 4 8 5\n2 3 2 2 2 2 3 7 6\n3 3 2 3 3 3 4 8 7\n"
+                        "4 5 2 4 4 1 2 3 4 5 6 7 8\n$EndElements\n");
+}
+
 /// A piece of it that most tests of numbers replace.
 inline const std::string horizon = R"xml(name="Horizon" type="double" value="1.5")xml";
 
@@ -94,6 +108,7 @@ inline std::string valid_in_3d() {
   for (const auto& [piece, by] : std::vector<std::pair<std::string, std::string>>{
            {R"xml(<ParameterList name="Mesh">)xml",
             R"xml(<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">)xml"},
+           {"plate.msh", "solid.msh"},
            {R"xml(value="0.3333")xml", R"xml(value="0.25")xml"},
            {"Plane Stress", "Three-Dimensional"},
            {R"xml(<Parameter name="Center" type="Array(double)" value="{100, 10}"/>)xml",
@@ -110,9 +125,14 @@ inline std::string valid_in_3d() {
   return text;
 }
 
-/// A folder of its own for each test, with the case as plate.xml.
+/// A folder of its own for each test, with the case as plate.xml, and its mesh.
 class CaseFile : public testing::Test {
  protected:
+  CaseFile() {
+    std::ofstream(folder_ / "plate.msh") << mesh_of(2);
+    std::ofstream(folder_ / "solid.msh") << mesh_of(3);
+  }
+
   std::string file() const { return folder_ / "plate.xml"; }
 
   perimorph::fracture::Case read(const std::string& text, const std::vector<std::string>& overrides = {}) const {

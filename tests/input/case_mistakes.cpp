@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"FourDimensions", R"xml(  <ParameterList name="Mesh">)xml",
                 R"xml(<Parameter name="Dimension" type="int" value="4"/><ParameterList name="Mesh">)xml",
                 R"xml(:2: /Dimension: found "4"; allowed is 2 or 3)xml"},
-        Mistake{"MeshFile", "plate.geo", "plate.stl",
+        Mistake{"MeshFile", "plate.msh", "plate.stl",
                 R"xml(:3: /Mesh/File: found "plate.stl"; allowed is the name of a file that ends in ".geo" or )xml"},
         Mistake{"EmptyGroup", R"xml(value="left"/>)xml", R"xml(value=""/>)xml",
                 R"xml(/Displacements/hold/Group: found ""; allowed is the name of a group)xml"},
@@ -359,13 +359,15 @@ TEST_F(CaseFile, AllMistakesAreListedInOneGoByLine) {
   text = replaced(text, elastic_model, elastic_model + R"xml( unit="none")xml");
   text = replaced(text, R"xml(name="Increments")xml", R"xml(name="Incremnets")xml");
   text = replaced(text, "{0, -1}", "{0}");
+  text = replaced(text, R"xml(value="top")xml", R"xml(value="topp")xml");
 
   const std::string message = error(text, {"Solver/Tolerence=1"});
 
-  EXPECT_THAT(message, StartsWith("7 mistakes in " + file() + "\n"));
+  EXPECT_THAT(message, StartsWith("8 mistakes in " + file() + "\n"));
   const std::vector<std::string> in_order{":7: /Material/Poisson's Ratio: ",
                                           ":8: /Material/Elastic Model: found the attribute",
                                           ":12: /Peridynamics/Horizon: found \"abc\"",
+                                          ":49: /Boundary Conditions/Tractions/wind/Group: the mesh plate.msh has no",
                                           ":50: /Boundary Conditions/Tractions/wind/Rate: ",
                                           ":54: /Loading/Increments: missing",
                                           ":55: /Loading/Incremnets: unknown parameter",
@@ -375,6 +377,16 @@ TEST_F(CaseFile, AllMistakesAreListedInOneGoByLine) {
     at = message.find(mistake, at);
     ASSERT_NE(at, std::string::npos) << mistake << " is not in its place in\n" << message;
   }
+}
+
+TEST_F(CaseFile, AMeshThatCannotBeReadIsOneMistakeAmongTheOthers) {
+  std::filesystem::remove(folder_ / "plate.msh");
+
+  const std::string message = error(replaced(valid, horizon, R"xml(name="Horizon" type="double" value="0")xml"));
+
+  EXPECT_THAT(message, StartsWith("2 mistakes in " + file() + "\n" + file() + ":3: /Mesh/File: "));
+  EXPECT_THAT(message, HasSubstr("plate.msh: "));
+  EXPECT_THAT(message, HasSubstr(":12: /Peridynamics/Horizon: "));
 }
 
 TEST_F(CaseFile, EmptyListMissesAllThatIsRequired) {

@@ -7,6 +7,7 @@
 #include "case_checks.hpp"
 #include "case_file.hpp"
 #include "choices.hpp"
+#include "group_checks.hpp"
 #include "literal.hpp"
 #include "perimorph/base/errors.hpp"
 #include "resolve.hpp"
@@ -49,11 +50,14 @@ void complete(ParameterList& list) {
   for (const auto& item : tractions) fill_with_zeros(tractions.sublist(item.first), dimension);
 }
 
+std::string folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path().string() : ".";
+}
+
 void take_names(Case& result, const std::string& file, const ParameterList& list) {
-  const std::filesystem::path path(file);
   result.file = file;
-  result.directory = path.has_parent_path() ? path.parent_path().string() : ".";
-  result.name = path.stem();
+  result.directory = folder_of(file);
+  result.name = std::filesystem::path(file).stem();
   if (result.name.find_first_not_of('.') == std::string::npos) {  // "..", and results/.. would be the folder above
     throw base::UserError(
         fmt::format("{}: its name without .xml names the results; found \"{}\", allowed are names with "
@@ -196,6 +200,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   for (const auto& text : overrides) apply_override(root, text, mistakes);
   Resolved resolved = resolve(root, case_schema(), mistakes);
   check_case(resolved, mistakes);
+  if (!mistakes.empty()) check_groups(resolved, folder_of(file), mistakes);
   mistakes.report();
   complete(resolved.list);
 
@@ -207,6 +212,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   take_solution(result, resolved.list);
   take_output(result, resolved.list.sublist("Output"));
   result.resolved = resolved.list;
+  result.lines = resolved.lines;
   return result;
 }
 

@@ -6,9 +6,8 @@
 #include <map>
 #include <numeric>
 
-#include "mistakes.hpp"
+#include "group_checks.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/base/text.hpp"
 #include "perimorph/fracture/probes.hpp"
 
 namespace perimorph::fracture {
@@ -109,57 +108,20 @@ class Checks {
   using Zones = std::vector<morphing::Zone<dim>>;
 
   Checks(const Case& input, const Zones& seeds, const mesh::Mesh<dim>& whole)
-      : input_(input), seeds_(seeds), mesh_(whole) {}
+      : input_(input), seeds_(seeds), mesh_(whole), mistakes_(input.file) {}
 
   void run() {
-    check_groups();
+    check_groups(input_.resolved, input_.lines, mesh_, mistakes_);
     const bool are_supports_known = mistakes_.empty();
     check_probes();
     check_contradictions();
     if (are_supports_known) check_free_motions();
     check_horizon();
-    if (!mistakes_.empty()) throw base::UserError(mistakes_.substr(1));
+    mistakes_.report();
   }
 
  private:
-  void add(const std::string& path, const std::string& what) {
-    mistakes_ += fmt::format("\n{}: {}: {}", input_.file, path, what);
-  }
-
-  // ---- groups ----
-
-  void check_groups() {
-    for (const auto& d : input_.displacements) {
-      check_group(displacements_path + "/" + d.name + "/Group", d.group, mesh_.node_sets, "nodes");
-    }
-    for (const auto& t : input_.tractions) {
-      check_group("/Boundary Conditions/Tractions/" + t.name + "/Group", t.group, mesh_.side_sets, "sides");
-    }
-    for (const auto& group : input_.reactions) {
-      const bool is_checked = std::any_of(input_.displacements.begin(), input_.displacements.end(),
-                                          [&](const auto& d) { return d.group == group; });
-      if (!is_checked) check_group("/Output/Reactions", group, mesh_.node_sets, "nodes");
-    }
-  }
-
-  template <class Groups>
-  void check_group(const std::string& path, const std::string& group, const Groups& groups, const char* members) {
-    if (groups.count(group) != 0) return;
-    std::vector<std::string> names;
-    for (const auto& entry : groups) names.push_back(entry.first);
-    add(path, fmt::format("the mesh {} has no group of {} called {}; it has {}{}{}", input_.mesh_file, members,
-                          in_quotes(group), names.empty() ? "none" : base::quoted_list(names), what_it_is(group),
-                          base::did_you_mean(group, names)));
-  }
-
-  /// Of a group that exists, but has members of another dimension.
-  std::string what_it_is(const std::string& group) const {
-    const auto& blocks = mesh_.block_names;
-    if (std::find(blocks.begin(), blocks.end(), group) != blocks.end()) {
-      return fmt::format(" ({} is a group of elements)", in_quotes(group));
-    }
-    return mesh_.node_sets.count(group) != 0 ? fmt::format(" ({} has nodes only)", in_quotes(group)) : "";
-  }
+  void add(const std::string& path, const std::string& what) { mistakes_.add(line_of(input_.lines, path), path, what); }
 
   // ---- probes ----
 
@@ -270,7 +232,7 @@ class Checks {
   const Case& input_;
   const Zones& seeds_;
   const mesh::Mesh<dim>& mesh_;
-  std::string mistakes_;
+  Mistakes mistakes_;
 };
 
 }  // namespace

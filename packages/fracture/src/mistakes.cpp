@@ -11,6 +11,16 @@ constexpr std::size_t most_mistakes = 100;
 constexpr std::size_t most_characters = 60;
 }  // namespace
 
+int line_of(const std::map<std::string, int>& lines, std::string path) {
+  for (;;) {
+    const auto found = lines.find(path);
+    if (found != lines.end()) return found->second;
+    const auto slash = path.rfind('/');
+    if (slash == std::string::npos) return 1;
+    path.erase(slash);
+  }
+}
+
 void Mistakes::add(int line, const std::string& path, const std::string& what) {
   const std::string where = line == command_line ? "--set" : fmt::format("{}:{}", file_, line);
   found_.emplace_back(line, fmt::format("{}: {}{}{}", where, path, path.empty() ? "" : ": ", what));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,10 @@ namespace perimorph::fracture {
 
 /// The line of what was said on the command line, not in the file.
 inline constexpr int command_line = 0;
+
+/// Where "/Section/Name" was given: of the parameter or section, or else of the innermost section around it that the
+/// file has.
+int line_of(const std::map<std::string, int>& lines, std::string path);
 
 /// Everything wrong with one case file, said in one go.
 class Mistakes {
@@ -19,6 +24,8 @@ class Mistakes {
 
   /// @throws UserError that lists them in the order of lines, the command line's last, if there are any.
   void report();
+
+  bool empty() const { return found_.empty(); }
 
  private:
   std::string file_;

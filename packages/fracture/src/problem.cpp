@@ -1,12 +1,10 @@
 #include "perimorph/fracture/problem.hpp"
 
-#include <filesystem>
 #include <limits>
 
 #include "mesh_checks.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/distribute.hpp"
-#include "perimorph/mesh/gmsh.hpp"
 #include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
@@ -70,11 +68,6 @@ bool is_proportional(const Case& input) {
          all_zero(input.body_force_constant);
 }
 
-std::string path_of_mesh(const Case& input, const std::string& folder) {
-  const std::filesystem::path file(input.mesh_file);
-  return file.extension() == ".geo" ? (std::filesystem::path(folder) / file.stem()).string() + ".msh" : file.string();
-}
-
 }  // namespace
 
 template <int dim>
@@ -117,9 +110,7 @@ mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const
   mesh::Mesh<dim> whole;
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
-    const std::string file = path_of_mesh(input, folder);
-    if (file != input.mesh_file) mesh::mesh_geometry(input.mesh_file, file, dim);
-    whole = mesh::read_mesh<dim>(file, input.mesh_scale);
+    whole = mesh::mesh_and_read<dim>(input.mesh_file, folder, input.mesh_scale);
     if (!problem.pre_cracks.empty()) mesh::open_along<dim>(whole, problem.pre_cracks);
     check_against_mesh(input, problem.seeds, whole);
   });

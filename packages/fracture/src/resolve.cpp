@@ -184,16 +184,6 @@ class Resolver {
 
 }  // namespace
 
-int Resolved::line(std::string path) const {
-  for (;;) {
-    const auto found = lines.find(path);
-    if (found != lines.end()) return found->second;
-    const auto slash = path.rfind('/');
-    if (slash == std::string::npos) return 1;
-    path.erase(slash);
-  }
-}
-
 Resolved resolve(const Node& root, const ParameterList& schema, Mistakes& mistakes) {
   Resolved result;
   result.list.setName(schema.name());

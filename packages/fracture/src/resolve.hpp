@@ -5,6 +5,7 @@
 #include <string>
 
 #include "case_file.hpp"
+#include "mistakes.hpp"
 
 namespace perimorph::fracture {
 
@@ -15,8 +16,7 @@ struct Resolved {
   std::map<std::string, int> lines;  ///< "/Section/Name" -> where it was given
 
   bool given(const std::string& path) const { return lines.count(path) > 0; }
-  /// Of the parameter or section, or else of the innermost section around it that the file has.
-  int line(std::string path) const;
+  int line(const std::string& path) const { return line_of(lines, path); }
 };
 
 /// Compares what was found with the schema, one parameter at a time.

@@ -1,7 +1,6 @@
 #include "perimorph/fracture/run.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <array>
@@ -16,6 +15,7 @@
 #include "perimorph/fracture/automatic_seeds.hpp"
 #include "perimorph/fracture/calibration.hpp"
 #include "perimorph/mesh/read_mesh.hpp"
+#include "temporary_folder.hpp"
 
 namespace perimorph::fracture {
 
@@ -155,18 +155,6 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
   }
 }
 
-/// A folder that goes when this goes.
-struct TemporaryFolder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("perimorph-check-" + std::to_string(getpid()));
-  TemporaryFolder() { std::filesystem::create_directories(path); }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
-
 /// Peak memory of this process so far, [bytes].
 double peak_memory() {
   rusage usage{};
@@ -180,7 +168,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   const TemporaryFolder folder;
   const auto log = base::make_log(*comm, talk == Talk::quiet);
   auto problem = make_problem<dim>(input);
-  const auto whole = read_whole_mesh(*comm, input, problem, folder.path.string());
+  const auto whole = read_whole_mesh(*comm, input, problem, folder.path());
   const auto mesh = distribute_mesh(*comm, whole, problem, expected_costs(whole, problem));
   log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);

@@ -8,6 +8,7 @@
 #include "mesh_builder.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
+#include "perimorph/mesh/gmsh.hpp"
 
 namespace perimorph::mesh {
 
@@ -40,7 +41,18 @@ Mesh<dim> read_mesh(const std::string& file, double scale) {
   return build_mesh<dim>(reader->second(file), scale);
 }
 
+template <int dim>
+Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale) {
+  const std::filesystem::path path(file);
+  if (path.extension() != ".geo") return read_mesh<dim>(file, scale);
+  const std::string meshed = (std::filesystem::path(folder) / path.stem()).string() + ".msh";
+  mesh_geometry(file, meshed, dim);
+  return read_mesh<dim>(meshed, scale);
+}
+
 template Mesh<2> read_mesh(const std::string&, double);
 template Mesh<3> read_mesh(const std::string&, double);
+template Mesh<2> mesh_and_read(const std::string&, const std::string&, double);
+template Mesh<3> mesh_and_read(const std::string&, const std::string&, double);
 
 }  // namespace perimorph::mesh

@@ -118,7 +118,8 @@ struct Case {
   bool records_crack;                ///< its size and path
   std::vector<int> bond_increments;  ///< after which all bonds are written
 
-  Teuchos::ParameterList resolved;  ///< every parameter with its value, defaults filled in
+  Teuchos::ParameterList resolved;   ///< every parameter with its value, defaults filled in
+  std::map<std::string, int> lines;  ///< "/Section/Name" -> line in the file; 0: on the command line
 };
 
 /// The reference: every parameter with default, documentation and validator. Sublists whose entries the user names
@@ -126,7 +127,8 @@ struct Case {
 Teuchos::ParameterList case_schema();
 
 /// Reads and checks a case file; overrides are "Section/Sub/Name=value". Local.
-/// @throws UserError that lists ALL mistakes, one a line, "file:line: /path: what was found; what is allowed".
+/// @throws UserError that lists ALL mistakes, one a line, "file:line: /path: what was found; what is allowed"; if there
+///         are any, also the groups that the mesh does not have.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides = {});
 
 /// The values of a list: "/Section/Sub/Name = value", a line each.

@@ -20,10 +20,14 @@ const std::vector<std::string>& mesh_file_endings();
 /// @param scale factor on all coordinates: 1000 for a file in m and a case in mm
 /// @throws UserError naming file, element or group: unknown ending or version, unreadable or truncated file, counts
 /// that
-///         the file cannot hold, elements of a wrong kind (other than Q4/T3 in 2D, H8/T4 in 3D; of second order),
+///         the file cannot hold, elements of a wrong kind (other than Q4/T3 in 2D, H8/W6/P5/T4 in 3D; of second order),
 ///         inverted or degenerate ones, nodes that no element uses, elements in no group or in two.
 template <int dim>
 Mesh<dim> read_mesh(const std::string& file, double scale = 1.);
+
+/// The same, also of gmsh's geometry, .geo: it is meshed first, and the mesh kept in a folder.
+template <int dim>
+Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale = 1.);
 
 /// What a whole mesh consists of, for people, some lines: elements by kind, groups with their sizes, bounding box, edge
 /// lengths, and quality: the scaled Jacobian (at an element's worst corner the area or volume that its edges span
