@@ -42,6 +42,11 @@ Teuchos::ParameterList default_parameters(Multigrid::Cycle cycle) {
   return list;
 }
 
+/// Lets the level managers be seen, which MueLu protects.
+struct OpenHierarchy : MueLu::Hierarchy<double, int, base::GlobalId, Matrix::node_type> {
+  using Hierarchy::GetLevelManager;
+};
+
 using Preconditioner = MueLu::TpetraOperator<double, int, base::GlobalId, Matrix::node_type>;
 
 std::vector<CycleLevel> levels_of(const Preconditioner& preconditioner) {
@@ -116,6 +121,14 @@ Multigrid::Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& ne
 Multigrid::~Multigrid() = default;
 
 void Multigrid::refresh() {
+  // Tpetra leaves out of a product's pattern what is zero by the values at hand. With others the pattern may be too
+  // small, and it throws on the rank where that is so, while the others wait for it: the coarse matrices get new
+  // patterns.
+  const auto hierarchy = hierarchy_->preconditioner->GetHierarchy();
+  for (int l = 1; l < hierarchy->GetNumLevels(); ++l) {
+    const auto products = (hierarchy.get()->*(&OpenHierarchy::GetLevelManager))(l)->GetFactory("A");
+    for (const char* name : {"AP reuse data", "RAP reuse data"}) hierarchy->GetLevel(l)->Delete(name, products.get());
+  }
   MueLu::ReuseTpetraPreconditioner(hierarchy_->matrix, *hierarchy_->preconditioner);
   make_operator();
 }

@@ -97,5 +97,26 @@ TEST_F(Multigrid, FollowsNewValuesWhenRefreshed) {
   EXPECT_LT(std::sqrt(dot(after, after)), 1e-4 * std::sqrt(dot(before, before)));
 }
 
+/// Values that were zero, as those between x and y are in many a regular mesh, and no longer are.
+TEST_F(Multigrid, IsRefreshedWhereZerosHaveGotValues) {
+  const auto values = matrix->getLocalMatrixHost().values;
+  const std::vector<double> all(values.data(), values.data() + values.extent(0));
+  const auto local = matrix->getLocalMatrixHost();
+  for (int row = 0; row < local.numRows(); ++row) {
+    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
+      if ((local.graph.entries(k) + row) % 2 == 1) values(k) = 0.;
+    }
+  }
+  auto multigrid = make();
+  std::copy(all.begin(), all.end(), values.data());
+
+  multigrid.refresh();
+
+  auto error = wave(0.4);
+  const double before = dot(error, times(*matrix, error));
+  error.update(-1., times(*multigrid.apply_inverse(), times(*matrix, error)), 1.);
+  EXPECT_LT(dot(error, times(*matrix, error)), 0.5 * before);
+}
+
 }  // namespace
 }  // namespace perimorph::tests
