@@ -5,7 +5,7 @@ import os
 
 import paraview.simple as pv
 
-# The element variable "class": number, name, colour (as in the pictures of tools/render).
+# The element variable "class": number, name, colour, as in runs.py, which is out of reach inside ParaView.
 CLASSES = [("0", "FE", (0.78, 0.83, 0.88)), ("1", "MORPH", (0.96, 0.72, 0.32)), ("2", "PD", (0.42, 0.62, 0.80)),
            ("3", "DGFE", (0.76, 0.20, 0.22))]
 DAMAGED = 0.3  # beside a straight crack elements lose about 40 % of their bonds

@@ -384,6 +384,8 @@ def find_step(files, step):
     fail(f"--step {step}: not written; nearest are {near} (of {known[0]:g} to {known[-1]:g})")
 
 
+# The element variable "class" from 0 on: name and colour.
+CLASSES = {"FE": (0.78, 0.83, 0.88), "MORPH": (0.96, 0.72, 0.32), "PD": (0.42, 0.62, 0.80), "DGFE": (0.76, 0.20, 0.22)}
 VIEW = (0.5, -0.75, 0.43)  # direction from the middle of a three-dimensional body to who looks at it
 
 
