@@ -7,6 +7,7 @@ build is there already (tools/fresh-machine does that, too).
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -63,11 +64,16 @@ class Newcomer(unittest.TestCase):
         history = case / "out/history.csv"
         while run.poll() is None and not (history.exists() and len(history.read_text().splitlines()) > 2):
             time.sleep(0.1)
+        run.send_signal(signal.SIGUSR1)  # a checkpoint, and on
+        while run.poll() is None and not list((case / "out").glob("checkpoint-*.h5")):
+            time.sleep(0.1)
+        self.assertIsNone(run.poll())
         run.terminate()
         told = run.communicate(timeout=100)[1]
         self.assertEqual(run.returncode, 3, told)
         self.assertIn("SIGTERM asked it to stop", told)
-        self.assertEqual(len(list((case / "out").glob("checkpoint-*.h5"))), 1)
+        last = len(history.read_text().splitlines()) - 1
+        self.assertTrue((case / f"out/checkpoint-{last:06d}.h5").exists())
 
     def test_what_cannot_be_installed_is_told(self):
         told = subprocess.run(

@@ -11,7 +11,8 @@
 
 namespace perimorph::mesh {
 
-/// What a mesh file may consist of: points and linear elements. The first ones serve as members of groups only.
+/// What a mesh file may consist of: points and linear elements. The first ones serve as members of groups only,
+/// the others are in the order of ElementType.
 enum class Shape : std::uint8_t { point, line, triangle, quadrangle, tetrahedron, pyramid, wedge, hexahedron };
 
 int dimension(Shape shape);

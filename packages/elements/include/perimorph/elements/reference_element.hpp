@@ -27,9 +27,8 @@ struct ReferenceElement {
 };
 
 /// The table for one type and rule, made at its first use.
-/// @param points_per_direction 1, 2 or 3: Gauss points of Q4, H8 and P5 along each axis; the simplices' rule of 1, 3
-/// (T3)
-///        or 4 (T4), and 6 or 11 points; W6 has the triangle's in each of as many layers
+/// @param points_per_direction 1, 2 or 3: Gauss points of Q4, H8 and P5 along each axis; the simplices' rule of 1,
+///        3 (T3) or 4 (T4), and 6 or 11 points; W6 has the triangle's in each of as many layers
 template <int dim>
 const ReferenceElement<dim>& reference_element(mesh::ElementType type, int points_per_direction = 2);
 
