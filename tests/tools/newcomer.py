@@ -33,7 +33,6 @@ class Newcomer(unittest.TestCase):
         (self.clone / "build/drivers").mkdir(parents=True)
         (self.clone / "build/drivers/perimorph").symlink_to(PERIMORPH)
 
-    @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("xvfb-run"), "needs ParaView")
     def test_two_commands_lead_to_a_picture_of_a_broken_beam(self):
         text = (ROOT / "README.md").read_text()
         section = re.search(r"^## Two commands$(.*?)^## ", text, re.MULTILINE | re.DOTALL).group(1)

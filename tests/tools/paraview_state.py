@@ -5,7 +5,6 @@
 
 import ast
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -29,7 +28,6 @@ class ParaView(unittest.TestCase):
         return subprocess.run([TOOLS / "paraview", *arguments], capture_output=True, text=True, timeout=60,
                               cwd=self.folder)
 
-    @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("xvfb-run"), "needs ParaView")
     def test_the_state_has_the_series_warped_and_damage_and_slice_ready(self):
         saved = self.paraview(RUN, "--save", "state.pvsm")
         self.assertEqual(saved.returncode, 0, saved.stderr)

@@ -68,7 +68,6 @@ class Report(unittest.TestCase):
             self.assertIn(piece, page.text)
         self.assertRegex(page.text, r"Warnings\s*None\.")
 
-    @unittest.skipUnless(shutil.which("pvbatch") and shutil.which("xvfb-run"), "needs ParaView")
     def test_has_pictures_of_each_event(self):
         self.assertEqual(self.page().tags.count("img"), 3 * len(runs.events_of(runs.History(str(RUN)), "reaction_top_y")))
 

@@ -6,7 +6,6 @@
 import ast
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -25,7 +24,6 @@ import restart
 import runs
 
 SPREAD = ["--set", "Output/Spread Files=true"]
-HAS_PARAVIEW = shutil.which("pvbatch") and shutil.which("xvfb-run")
 
 
 class Spread(restart.Restart):
@@ -146,7 +144,6 @@ class Mistakes(Spread):
         self.assertIn("no spread files", told.stderr)
 
 
-@unittest.skipUnless(HAS_PARAVIEW, "needs ParaView")
 class Pictures(Spread):
     def setUp(self):
         super().setUp()

@@ -218,7 +218,6 @@ class Watch(unittest.TestCase):
                 self.assertEqual(told.returncode, 2)
                 self.assertIn(piece, told.stderr)
 
-    @unittest.skipUnless(shutil.which("chromium"), "needs chromium")
     def test_a_browser_draws_the_curve(self):
         self.fill()
         address = self.watch()
