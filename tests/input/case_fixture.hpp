@@ -57,6 +57,10 @@ inline const std::string valid = R"xml(<ParameterList name="plate">
         <Parameter name="Component" type="string" value="x"/>
         <Parameter name="Rate" type="double" value="-0.02"/>
       </ParameterList>
+      <ParameterList name="guide">
+        <Parameter name="Group" type="string" value="left"/>
+        <Parameter name="Component" type="string" value="y"/>
+      </ParameterList>
     </ParameterList>
     <ParameterList name="Tractions">
       <ParameterList name="wind">
@@ -105,21 +109,25 @@ inline std::string replaced(std::string text, const std::string& piece, const st
 /// The same in three dimensions.
 inline std::string valid_in_3d() {
   std::string text = valid;
-  for (const auto& [piece, by] : std::vector<std::pair<std::string, std::string>>{
-           {R"xml(<ParameterList name="Mesh">)xml",
-            R"xml(<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">)xml"},
-           {"plate.msh", "solid.msh"},
-           {R"xml(value="0.3333")xml", R"xml(value="0.25")xml"},
-           {"Plane Stress", "Three-Dimensional"},
-           {R"xml(<Parameter name="Center" type="Array(double)" value="{100, 10}"/>)xml",
-            R"xml(<Parameter name="Shape" type="string" value="Sphere"/>)xml"
-            R"xml(<Parameter name="Center" type="Array(double)" value="{100, 10, 0}"/>)xml"},
-           {"{0, 0}", "{0, 0, 0}"},
-           {"{5, 1}", "{5, 1, 1}"},
-           {R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml",
-            R"xml(<Parameter name="Shape" type="string" value="Polygon"/>)xml"
-            R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 0, 5, 0, 0, 5, 0, 2, 0, 0, 2}"/>)xml"},
-           {"{0, -1}", "{0, -1, 0}"}}) {
+  for (
+      const auto& [piece, by] : std::vector<std::pair<std::string, std::string>>{
+          {R"xml(<ParameterList name="Mesh">)xml",
+           R"xml(<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">)xml"},
+          {"plate.msh", "solid.msh"},
+          {R"xml(value="0.3333")xml", R"xml(value="0.25")xml"},
+          {"Plane Stress", "Three-Dimensional"},
+          {R"xml(<Parameter name="Center" type="Array(double)" value="{100, 10}"/>)xml",
+           R"xml(<Parameter name="Shape" type="string" value="Sphere"/>)xml"
+           R"xml(<Parameter name="Center" type="Array(double)" value="{100, 10, 0}"/>)xml"},
+          {"{0, 0}", "{0, 0, 0}"},
+          {"{5, 1}", "{5, 1, 1}"},
+          {R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml",
+           R"xml(<Parameter name="Shape" type="string" value="Polygon"/>)xml"
+           R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 0, 5, 0, 0, 5, 0, 2, 0, 0, 2}"/>)xml"},
+          {"{0, -1}", "{0, -1, 0}"},
+          {R"xml(<ParameterList name="guide">)xml",
+           R"xml(<ParameterList name="stop"><Parameter name="Group" type="string" value="left"/>)xml"
+           R"xml(<Parameter name="Component" type="string" value="z"/></ParameterList><ParameterList name="guide">)xml"}}) {
     text = replaced(text, piece, by);
   }
   return text;

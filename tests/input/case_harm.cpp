@@ -91,7 +91,7 @@ TEST_F(CaseFile, DeepNestingIsRefused) {
   const std::string message = error(
       replaced(valid, R"xml(<ParameterList name="MueLu">)xml", R"xml(<ParameterList name="MueLu">)xml" + open + close));
 
-  EXPECT_THAT(message, HasSubstr(":58: lists are nested too deeply; allowed are 32 levels"));
+  EXPECT_THAT(message, HasSubstr(":62: lists are nested too deeply; allowed are 32 levels"));
 }
 
 TEST_F(CaseFile, DeepOverrideIsRefused) {

@@ -41,22 +41,22 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{
             "UnknownParameter", solver, solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
-            R"xml(:57: /Solver/Tolerence: unknown parameter; allowed are "Operator", "Preconditioner Matrix", )xml"},
+            R"xml(:61: /Solver/Tolerence: unknown parameter; allowed are "Operator", "Preconditioner Matrix", )xml"},
         Mistake{"NearestParameter", solver,
                 solver + R"xml(<Parameter name="Tolerence" type="double" value="1e-6"/>)xml",
                 R"xml( - did you mean "Tolerance"?)xml"},
         Mistake{"UnknownAtTheTop", solver, R"xml(<Parameter name="Titel" type="string" value=""/>)xml" + solver,
-                R"xml(:57: /Titel: unknown parameter; allowed are "Title", "Dimension", )xml"},
+                R"xml(:61: /Titel: unknown parameter; allowed are "Title", "Dimension", )xml"},
         Mistake{"UnknownInAnEntry", tip, tip + R"xml(<Parameter name="Radius" type="double" value="1"/>)xml",
                 R"xml(:18: /Morphing/Seeds/tip/Radius: unknown parameter; allowed are "Shape", )xml"},
         Mistake{"UnknownSection", solver, R"xml(<ParameterList name="Solvers"/>)xml" + solver,
-                R"xml(:57: /Solvers: unknown section; allowed are "Title", )xml"},
+                R"xml(:61: /Solvers: unknown section; allowed are "Title", )xml"},
         Mistake{"NearestSection", solver, R"xml(<ParameterList name="Solvers"/>)xml" + solver,
                 R"xml( - did you mean "Solver"?)xml"},
         Mistake{"ListForAParameter", solver, R"xml(<ParameterList name="Title"/>)xml" + solver,
-                ":57: /Title: found a <ParameterList>; allowed is a <Parameter>"},
+                ":61: /Title: found a <ParameterList>; allowed is a <Parameter>"},
         Mistake{"ParameterForAList", solver, R"xml(<Parameter name="Solver" type="string" value="CG"/>)xml" + solver,
-                ":57: /Solver: found a <Parameter>; allowed is a <ParameterList>"},
+                ":61: /Solver: found a <Parameter>; allowed is a <ParameterList>"},
         Mistake{
             "ParameterAmongEntries", R"xml(<ParameterList name="tip">)xml",
             R"xml(<Parameter name="Rim" type="double" value="1"/><ParameterList name="tip">)xml",
@@ -66,13 +66,13 @@ INSTANTIATE_TEST_SUITE_P(
                 R"xml(/Morphing/Seeds/tip/1: found a name with "/", "=" or "*"; allowed are names without these)xml"},
         Mistake{"ParameterTwice", "<Parameter " + increments + "/>",
                 "<Parameter " + increments + "/>\n<Parameter " + increments + "/>",
-                ":56: /Loading/Increments: given twice; allowed is once"},
-        Mistake{"SectionTwice", solver, R"xml(<ParameterList name="Mesh"/>)xml" + solver, ":57: /Mesh: given twice"},
+                ":60: /Loading/Increments: given twice; allowed is once"},
+        Mistake{"SectionTwice", solver, R"xml(<ParameterList name="Mesh"/>)xml" + solver, ":61: /Mesh: given twice"},
         Mistake{"EntryTwice", R"xml(<ParameterList name="bar">)xml", R"xml(<ParameterList name="tip">)xml",
                 ":22: /Morphing/Seeds/tip: given twice; allowed is once"},
         Mistake{"FreeParameterTwice", R"xml(<ParameterList name="MueLu">)xml",
                 R"xml(<ParameterList name="MueLu"><Parameter name="coarse: max size" type="int" value="1"/>)xml",
-                ":59: /Solver/MueLu/coarse: max size: given twice"}),
+                ":63: /Solver/MueLu/coarse: max size: given twice"}),
     named);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Component", R"xml(<Parameter name="Component" type="string" value="x"/>)xml", "",
                 R"xml(/hold/Component: missing; needed is "x" or "y" or "z")xml"},
         Mistake{"Section", "<Parameter " + increments + "/>", "",
-                ":54: /Loading/Increments: missing; needed is a whole number >= 1"},
+                ":58: /Loading/Increments: missing; needed is a whole number >= 1"},
         Mistake{"Points", R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml", "",
                 ":31: /Pre-Cracks/slit/Points: missing; a pre-crack with \"Shape\" \"Polyline\" needs it"}),
     named);
@@ -96,14 +96,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"IntForDouble", horizon, R"xml(name="Horizon" type="int" value="2")xml",
                 R"xml(:12: /Peridynamics/Horizon: found type="int"; write type="double")xml"},
         Mistake{"DoubleForInt", increments, R"xml(name="Increments" type="double" value="2")xml",
-                R"xml(:55: /Loading/Increments: found type="double"; write type="int")xml"},
+                R"xml(:59: /Loading/Increments: found type="double"; write type="int")xml"},
         Mistake{"ScalarForArray", R"xml(type="Array(double)" value="{100, 10}")xml",
                 R"xml(type="double" value="100")xml",
                 R"xml(/Morphing/Seeds/tip/Center: found type="double"; write type="Array(double)")xml"},
         Mistake{"None", horizon, R"xml(name="Horizon" value="2")xml",
                 R"xml(/Peridynamics/Horizon: found no type; write type="double")xml"},
         Mistake{"NoneInAFreeList", R"xml(name="coarse: max size" type="int")xml", R"xml(name="coarse: max size")xml",
-                R"xml(:59: /Solver/MueLu/coarse: max size: found no type; allowed are "int", "double", "bool", )xml"},
+                R"xml(:63: /Solver/MueLu/coarse: max size: found no type; allowed are "int", "double", "bool", )xml"},
         Mistake{"UnknownInAFreeList", R"xml(name="coarse: max size" type="int")xml",
                 R"xml(name="coarse: max size" type="integer")xml",
                 R"xml(found type="integer"; allowed are "int", "double", "bool", "string", "Array(int)", )xml"},
@@ -119,7 +119,7 @@ Mistake number(const char* name, const std::string& value) {
 
 Mistake whole_number(const char* name, const std::string& value) {
   return {name, increments, "name=\"Increments\" type=\"int\" value=\"" + value + "\"",
-          ":55: /Loading/Increments: found \"" + value +
+          ":59: /Loading/Increments: found \"" + value +
               "\", which is not a whole number such as 12; allowed is a whole number >= 1"};
 }
 
@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
                     array("NoBraces", "100, 10"), array("OpenBrace", "{100, 10"), array("EmptyItem", "{100, , 10}"),
                     array("EndingComma", "{100, 10,}"), array("LettersInArray", "{a, b}"), array("Nested", "{{1}, 2}"),
                     Mistake{"Boolean", R"xml(type="int" value="50")xml", R"xml(type="bool" value="yes")xml",
-                            ":59: /Solver/MueLu/coarse: max size: found \"yes\", which is not true or false"}),
+                            ":63: /Solver/MueLu/coarse: max size: found \"yes\", which is not true or false"}),
     named);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -237,13 +237,13 @@ INSTANTIATE_TEST_SUITE_P(
             R"xml(:43: /Boundary Conditions/Displacements/pull/Component: found the group "left" with "x" again; )xml"
             "/Boundary Conditions/Displacements/hold prescribes that displacement already"},
         Mistake{"TractionOfOne", "{0, -1}", "{-1}",
-                ":50: /Boundary Conditions/Tractions/wind/Rate: found {-1}; allowed are 2 numbers, one per dimension"},
+                ":54: /Boundary Conditions/Tractions/wind/Rate: found {-1}; allowed are 2 numbers, one per dimension"},
         Mistake{"BodyForceOfThree", R"xml(<ParameterList name="Tractions">)xml",
                 R"xml(<ParameterList name="Body Force"><Parameter name="Rate" type="Array(double)" value="{1, 2, 3}"/>
                    </ParameterList><ParameterList name="Tractions">)xml",
-                ":47: /Boundary Conditions/Body Force/Rate: found {1, 2, 3}; allowed are 2 numbers"},
+                ":51: /Boundary Conditions/Body Force/Rate: found {1, 2, 3}; allowed are 2 numbers"},
         Mistake{"ReactionTwice", "{left, right}", "{left, left}",
-                R"xml(:63: /Output/Reactions: found "left" twice; allowed is each group once)xml"}),
+                R"xml(:67: /Output/Reactions: found "left" twice; allowed is each group once)xml"}),
     named);
 
 class OneMistakeIn3d : public OneMistake {};
@@ -310,18 +310,18 @@ INSTANTIATE_TEST_SUITE_P(
             R"xml(:33: /Pre-Cracks/slit/Normal: found {0, 0, 0}; allowed is a direction, which has a length)xml"},
         Mistake{
             "TractionOfTwo", "{0, -1, 0}", "{0, -1}",
-            ":50: /Boundary Conditions/Tractions/wind/Rate: found {0, -1}; allowed are 3 numbers, one per dimension"}),
+            ":54: /Boundary Conditions/Tractions/wind/Rate: found {0, -1}; allowed are 3 numbers, one per dimension"}),
     named);
 
 INSTANTIATE_TEST_SUITE_P(
     Markup, OneMistake,
     testing::Values(
         Mistake{"UnknownTag", solver, "<Paramter/>" + solver,
-                R"xml(:57: found the tag "Paramter"; allowed are <Parameter .../> and <ParameterList ...>)xml"
+                R"xml(:61: found the tag "Paramter"; allowed are <Parameter .../> and <ParameterList ...>)xml"
                 R"xml( - did you mean "Parameter"?)xml"},
         Mistake{"UnknownTagInside", tip, tip + "<!-- fine --><b/>",
                 R"xml(:18: /Morphing/Seeds/tip: found the tag "b";)xml"},
-        Mistake{"Text", solver, "hello" + solver, R"xml(:57: found the text "hello"; allowed are)xml"},
+        Mistake{"Text", solver, "hello" + solver, R"xml(:61: found the text "hello"; allowed are)xml"},
         Mistake{"TextInAParameter", horizon + "/>", horizon + ">3</Parameter>",
                 R"xml(:12: /Peridynamics/Horizon: found the text "3" inside; allowed is value="..." alone)xml"},
         Mistake{
@@ -330,16 +330,16 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"AttributeTwice", horizon, horizon + R"xml( value="2")xml",
                 R"xml(:12: /Peridynamics/Horizon: found the attribute "value" twice; allowed is once)xml"},
         Mistake{"ValueOfAList", solver, R"xml(<ParameterList name="Solver" value="CG">)xml",
-                R"xml(:57: /Solver: found the attribute "value"; allowed are "name", "id", "docString")xml"},
+                R"xml(:61: /Solver: found the attribute "value"; allowed are "name", "id", "docString")xml"},
         Mistake{"NoName", solver, solver + R"xml(<Parameter type="int" value="3"/>)xml",
-                R"xml(:57: /Solver: <Parameter> without a name; name="..." is needed)xml"},
+                R"xml(:61: /Solver: <Parameter> without a name; name="..." is needed)xml"},
         Mistake{"LongName", solver,
                 solver + "<Parameter name=\"" + std::string(201, 'a') + "\" type=\"int\" value=\"3\"/>",
                 R"xml(aaa..."; allowed is a readable one of at most 200 characters)xml"},
         Mistake{"TwoRoots", valid, valid + R"xml(<ParameterList name="second"/>)xml",
-                R"xml(:66: found the tag "ParameterList"; allowed is one <ParameterList> that holds everything)xml"},
+                R"xml(:70: found the tag "ParameterList"; allowed is one <ParameterList> that holds everything)xml"},
         Mistake{"TextBesideTheRoot", valid, valid + "the end",
-                R"xml(:66: found the text "the end"; allowed is one)xml"},
+                R"xml(:70: found the text "the end"; allowed is one)xml"},
         Mistake{"DocumentType", valid, "<!DOCTYPE ParameterList>\n" + valid,
                 ":1: found a document type (entities are not expanded); allowed is one <ParameterList>"},
         Mistake{"NoParameterList", valid, "<!-- nothing -->", ":1: there is no <ParameterList>; one that holds"},
@@ -367,16 +367,56 @@ TEST_F(CaseFile, AllMistakesAreListedInOneGoByLine) {
   const std::vector<std::string> in_order{":7: /Material/Poisson's Ratio: ",
                                           ":8: /Material/Elastic Model: found the attribute",
                                           ":12: /Peridynamics/Horizon: found \"abc\"",
-                                          ":49: /Boundary Conditions/Tractions/wind/Group: the mesh plate.msh has no",
-                                          ":50: /Boundary Conditions/Tractions/wind/Rate: ",
-                                          ":54: /Loading/Increments: missing",
-                                          ":55: /Loading/Incremnets: unknown parameter",
+                                          ":53: /Boundary Conditions/Tractions/wind/Group: the mesh plate.msh has no",
+                                          ":54: /Boundary Conditions/Tractions/wind/Rate: ",
+                                          ":58: /Loading/Increments: missing",
+                                          ":59: /Loading/Incremnets: unknown parameter",
                                           "\n--set: /Solver/Tolerence: unknown parameter"};
   std::size_t at = 0;
   for (const auto& mistake : in_order) {
     at = message.find(mistake, at);
     ASSERT_NE(at, std::string::npos) << mistake << " is not in its place in\n" << message;
   }
+}
+
+TEST_F(CaseFile, WhatDoesNotFitTheMeshIsListedWithTheOthers) {
+  std::string text = replaced(valid, R"xml(value="0.3333")xml", R"xml(value="0.3")xml");
+  text = replaced(text, horizon, R"xml(name="Horizon" type="double" value="0.5")xml");
+  text = replaced(text, R"xml(name="guide")xml", R"xml(name="pull again")xml");
+  text = replaced(text, R"xml(value="y")xml", R"xml(value="x")xml");
+  text = replaced(text, R"xml(value="left"/>
+        <Parameter name="Component" type="string" value="x"/>
+      </ParameterList>
+    </ParameterList>)xml",
+                  R"xml(value="top"/>
+        <Parameter name="Component" type="string" value="x"/>
+      </ParameterList>
+    </ParameterList>)xml");
+
+  const std::string message = error(text, {"Output/Probes/far/Points={9, 9}"});
+
+  EXPECT_THAT(message, StartsWith("5 mistakes in "));
+  for (const char* piece :
+       {":7: /Material/Poisson's Ratio: ", ":12: /Peridynamics/Horizon: found 0.5, but in the seed \"bar\" the element",
+        ":36: /Boundary Conditions/Displacements: the body can move as a whole: translation in y",
+        ":46: /Boundary Conditions/Displacements/pull again: prescribes another x displacement than "
+        "/Boundary Conditions/Displacements/pull on 1 node",
+        "--set: /Output/Probes/far/Points: (9, 9) is outside the body"}) {
+    EXPECT_THAT(message, HasSubstr(piece));
+  }
+}
+
+TEST_F(CaseFile, WhatFollowsFromAnotherMistakeIsNotListed) {
+  const std::string small = R"xml(name="Horizon" type="double" value="0.5")xml";
+  const std::vector<std::string> far{"Output/Probes/far/Points={9, 9}"};
+  const std::string unscaled = R"xml(plate.msh"/><Parameter name="Scale" type="double" value="0"/>)xml";
+  const std::string unknown = R"xml(value="0.5"/><Parameter name="Length" type="double" value="1"/>)xml";
+
+  EXPECT_THAT(error(replaced(replaced(valid, horizon, small), R"xml(plate.msh"/>)xml", unscaled), far),
+              StartsWith("1 mistake in "));
+  EXPECT_THAT(error(replaced(replaced(valid, horizon, small), R"xml(value="0.5"/>)xml", unknown)),
+              StartsWith("1 mistake in "));
+  EXPECT_THAT(error(replaced(valid, R"xml(value="y")xml", R"xml(value="q")xml")), StartsWith("1 mistake in "));
 }
 
 TEST_F(CaseFile, AMeshThatCannotBeReadIsOneMistakeAmongTheOthers) {

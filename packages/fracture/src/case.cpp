@@ -7,10 +7,12 @@
 #include "case_checks.hpp"
 #include "case_file.hpp"
 #include "choices.hpp"
-#include "group_checks.hpp"
+#include "geometry.hpp"
 #include "literal.hpp"
+#include "mesh_checks.hpp"
 #include "perimorph/base/errors.hpp"
 #include "resolve.hpp"
+#include "temporary_folder.hpp"
 
 namespace perimorph::fracture {
 
@@ -55,8 +57,6 @@ std::string folder_of(const std::filesystem::path& file) {
 }
 
 void take_names(Case& result, const std::string& file, const ParameterList& list) {
-  result.file = file;
-  result.directory = folder_of(file);
   result.name = std::filesystem::path(file).stem();
   if (result.name.find_first_not_of('.') == std::string::npos) {  // "..", and results/.. would be the folder above
     throw base::UserError(
@@ -65,23 +65,6 @@ void take_names(Case& result, const std::string& file, const ParameterList& list
                     file, result.name));
   }
   result.title = word(list, "Title");
-  result.dimension = list.get<int>("Dimension");
-  result.mesh_file = std::filesystem::path(result.directory) / word(list.sublist("Mesh"), "File");
-  result.mesh_scale = list.sublist("Mesh").get<double>("Scale");
-}
-
-void take_material(Case& result, const ParameterList& list) {
-  const ParameterList& material = list.sublist("Material");
-  result.youngs_modulus = material.get<double>("Young's Modulus");
-  result.poissons_ratio = material.get<double>("Poisson's Ratio");
-  result.elastic_model = value_of(elastic_models, word(material, "Elastic Model"));
-  result.critical_stretch = optional_number(material, "Critical Stretch");
-  result.fracture_energy = optional_number(material, "Fracture Energy");
-  result.calibration = value_of(calibrations, word(material, "Calibration"));
-  const ParameterList& peridynamics = list.sublist("Peridynamics");
-  result.horizon = peridynamics.get<double>("Horizon");
-  result.characteristic_length = peridynamics.get<double>("Characteristic Length");
-  result.points_per_direction = peridynamics.get<int>("Points per Direction");
 }
 
 constexpr double default_share = 0.8;  // of automatic seeds; the schema names it
@@ -102,6 +85,83 @@ Seed seed_from(const std::string& name, const ParameterList& list) {
   return seed;
 }
 
+PreCrack pre_crack_from(const std::string& name, const ParameterList& list) {
+  return {name,
+          value_of(pre_crack_shapes, word(list, "Shape")),
+          numbers(list, "Points"),
+          numbers(list, "Center"),
+          numbers(list, "Normal"),
+          number(list, "Radius")};
+}
+
+PrescribedDisplacement displacement_from(const std::string& name, const ParameterList& list) {
+  return {name, word(list, "Group"), value_of(components, word(list, "Component")), list.get<double>("Rate"),
+          list.get<double>("Constant")};
+}
+
+Probe probe_from(const std::string& name, const ParameterList& list) {
+  return {name, numbers(list, "Points"), list.get<int>("Divisions")};
+}
+
+/// The entries of a section in which there are no mistakes.
+template <class Entry>
+std::vector<Entry> sound_entries(const ParameterList& section, const std::string& path, const Mistakes& mistakes,
+                                 Entry (*from)(const std::string&, const ParameterList&)) {
+  std::vector<Entry> entries;
+  for (const auto& item : section) {
+    if (mistakes.none_in(path + "/" + item.first)) entries.push_back(from(item.first, section.sublist(item.first)));
+  }
+  return entries;
+}
+
+/// What is held against the mesh; of a case with mistakes, the part that has none.
+Case sound_part(const std::string& file, const Resolved& resolved, const Mistakes& mistakes) {
+  Case part{};
+  part.file = file;
+  part.directory = folder_of(file);
+  part.resolved = resolved.list;
+  part.lines = resolved.lines;
+  const ParameterList& list = part.resolved;
+  if (list.isParameter("Dimension")) part.dimension = list.get<int>("Dimension");
+  const ParameterList& mesh = list.sublist("Mesh");
+  if (mesh.isParameter("File")) part.mesh_file = std::filesystem::path(part.directory) / word(mesh, "File");
+  part.mesh_scale = optional_number(mesh, "Scale").value_or(1.);
+  part.horizon = number(list.sublist("Peridynamics"), "Horizon");
+  part.seeds = sound_entries(list.sublist("Morphing").sublist("Seeds"), "/Morphing/Seeds", mistakes, seed_from);
+  part.pre_cracks = sound_entries(list.sublist("Pre-Cracks"), "/Pre-Cracks", mistakes, pre_crack_from);
+  part.displacements = sound_entries(list.sublist("Boundary Conditions").sublist("Displacements"),
+                                     "/Boundary Conditions/Displacements", mistakes, displacement_from);
+  part.probes = sound_entries(list.sublist("Output").sublist("Probes"), "/Output/Probes", mistakes, probe_from);
+  return part;
+}
+
+/// Of a case with mistakes: that its mesh cannot be read, or what of the sound part does not fit it.
+template <int dim>
+void check_against_mesh_of(const Case& part, Mistakes& mistakes) {
+  const TemporaryFolder folder;
+  mesh::Mesh<dim> whole;
+  try {
+    whole = read_opened_mesh<dim>(part, folder.path());
+  } catch (const base::UserError& error) {
+    mistakes.add(line_of(part.lines, "/Mesh/File"), "/Mesh/File", error.what());
+    return;
+  }
+  check_against_mesh(part, whole, mistakes);
+}
+
+void take_material(Case& result, const ParameterList& list) {
+  const ParameterList& material = list.sublist("Material");
+  result.youngs_modulus = material.get<double>("Young's Modulus");
+  result.poissons_ratio = material.get<double>("Poisson's Ratio");
+  result.elastic_model = value_of(elastic_models, word(material, "Elastic Model"));
+  result.critical_stretch = optional_number(material, "Critical Stretch");
+  result.fracture_energy = optional_number(material, "Fracture Energy");
+  result.calibration = value_of(calibrations, word(material, "Calibration"));
+  const ParameterList& peridynamics = list.sublist("Peridynamics");
+  result.characteristic_length = peridynamics.get<double>("Characteristic Length");
+  result.points_per_direction = peridynamics.get<int>("Points per Direction");
+}
+
 void take_zones(Case& result, const ParameterList& list) {
   const ParameterList& morphing = list.sublist("Morphing");
   result.profile = value_of(morphing_profiles, word(morphing, "Function"));
@@ -109,28 +169,14 @@ void take_zones(Case& result, const ParameterList& list) {
   result.peridynamic_stiffness = value_of(peridynamic_stiffnesses, word(morphing, "Stiffness in Peridynamic Zone"));
   result.growth_inner_radius = morphing.get<double>("Growth Inner Radius") * result.horizon;
   result.growth_outer_radius = morphing.get<double>("Growth Outer Radius") * result.horizon;
-  const ParameterList& seeds = morphing.sublist("Seeds");
-  for (const auto& item : seeds) result.seeds.push_back(seed_from(item.first, seeds.sublist(item.first)));
   for (Seed& seed : result.seeds) {
     if (seed.shape != SeedShape::automatic) continue;
     if (seed.inner_radius == 0.) seed.inner_radius = result.growth_inner_radius;
     if (seed.outer_radius == 0.) seed.outer_radius = 2. * seed.inner_radius;
   }
-  const ParameterList& cracks = list.sublist("Pre-Cracks");
-  for (const auto& item : cracks) {
-    const ParameterList& one = cracks.sublist(item.first);
-    result.pre_cracks.push_back({item.first, value_of(pre_crack_shapes, word(one, "Shape")), numbers(one, "Points"),
-                                 numbers(one, "Center"), numbers(one, "Normal"), number(one, "Radius")});
-  }
 }
 
-void take_conditions(Case& result, const ParameterList& list) {
-  const ParameterList& displacements = list.sublist("Displacements");
-  for (const auto& item : displacements) {
-    const ParameterList& one = displacements.sublist(item.first);
-    result.displacements.push_back({item.first, word(one, "Group"), value_of(components, word(one, "Component")),
-                                    one.get<double>("Rate"), one.get<double>("Constant")});
-  }
+void take_forces(Case& result, const ParameterList& list) {
   const ParameterList& tractions = list.sublist("Tractions");
   for (const auto& item : tractions) {
     const ParameterList& one = tractions.sublist(item.first);
@@ -159,7 +205,6 @@ void take_solution(Case& result, const ParameterList& list) {
   result.muelu = solver.sublist("MueLu");
 }
 
-/// Requires the displacements to be known.
 void take_output(Case& result, const ParameterList& output) {
   result.output_every = output.get<int>("Every");
   result.spread_files = output.get<bool>("Spread Files");
@@ -167,11 +212,6 @@ void take_output(Case& result, const ParameterList& output) {
   result.checkpoint_minutes = output.get<double>("Checkpoint Minutes");
   result.records_crack = output.get<bool>("Crack");
   result.bond_increments = output.get<Teuchos::Array<int>>("Bonds").toVector();
-  const ParameterList& probes = output.sublist("Probes");
-  for (const auto& item : probes) {
-    const ParameterList& probe = probes.sublist(item.first);
-    result.probes.push_back({item.first, numbers(probe, "Points"), probe.get<int>("Divisions")});
-  }
   result.reactions = output.get<Teuchos::Array<std::string>>("Reactions").toVector();
   if (!result.reactions.empty()) return;
   for (const auto& displacement : result.displacements) {
@@ -200,19 +240,20 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   for (const auto& text : overrides) apply_override(root, text, mistakes);
   Resolved resolved = resolve(root, case_schema(), mistakes);
   check_case(resolved, mistakes);
-  if (!mistakes.empty()) check_groups(resolved, folder_of(file), mistakes);
+  Case result = sound_part(file, resolved, mistakes);
+  if (!mistakes.empty() && !result.mesh_file.empty() && result.dimension != 0) {
+    (result.dimension == 2 ? check_against_mesh_of<2> : check_against_mesh_of<3>)(result, mistakes);
+  }
   mistakes.report();
-  complete(resolved.list);
 
-  Case result;
+  complete(resolved.list);
   take_names(result, file, resolved.list);
   take_material(result, resolved.list);
   take_zones(result, resolved.list);
-  take_conditions(result, resolved.list.sublist("Boundary Conditions"));
+  take_forces(result, resolved.list.sublist("Boundary Conditions"));
   take_solution(result, resolved.list);
   take_output(result, resolved.list.sublist("Output"));
   result.resolved = resolved.list;
-  result.lines = resolved.lines;
   return result;
 }
 

@@ -2,14 +2,11 @@
 
 #include <Teuchos_Array.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <vector>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
-#include "perimorph/mesh/read_mesh.hpp"
-#include "temporary_folder.hpp"
 
 namespace perimorph::fracture {
 
@@ -77,31 +74,12 @@ class GroupChecks {
   Mistakes& mistakes_;
 };
 
-template <int dim>
-void check_groups_in(const Resolved& resolved, const std::string& file, Mistakes& mistakes) {
-  const TemporaryFolder folder;
-  const auto whole = mesh::mesh_and_read<dim>(file, folder.path());
-  check_groups(resolved.list, resolved.lines, whole, mistakes);
-}
-
 }  // namespace
 
 template <int dim>
 void check_groups(const ParameterList& list, const std::map<std::string, int>& lines, const mesh::Mesh<dim>& whole,
                   Mistakes& mistakes) {
   GroupChecks<dim>(list, lines, whole, mistakes).run();
-}
-
-void check_groups(const Resolved& resolved, const std::string& folder, Mistakes& mistakes) {
-  const ParameterList& mesh = resolved.list.sublist("Mesh");
-  if (!mesh.isParameter("File") || !resolved.list.isParameter("Dimension")) return;
-  const std::string file = std::filesystem::path(folder) / mesh.get<std::string>("File");
-  try {
-    const bool is_flat = resolved.list.get<int>("Dimension") == 2;
-    (is_flat ? check_groups_in<2> : check_groups_in<3>)(resolved, file, mistakes);
-  } catch (const base::UserError& error) {
-    mistakes.add(resolved.line("/Mesh/File"), "/Mesh/File", error.what());
-  }
 }
 
 template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<2>&, Mistakes&);

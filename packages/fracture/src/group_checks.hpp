@@ -6,7 +6,6 @@
 
 #include "mistakes.hpp"
 #include "perimorph/mesh/mesh.hpp"
-#include "resolve.hpp"
 
 namespace perimorph::fracture {
 
@@ -15,10 +14,5 @@ namespace perimorph::fracture {
 template <int dim>
 void check_groups(const Teuchos::ParameterList& list, const std::map<std::string, int>& lines,
                   const mesh::Mesh<dim>& whole, Mistakes& mistakes);
-
-/// The same of a case that has other mistakes, or that its mesh can be read at all; nothing if the mesh's name or
-/// dimension is wrong itself. Local.
-/// @param folder that the mesh's name is relative to
-void check_groups(const Resolved& resolved, const std::string& folder, Mistakes& mistakes);
 
 }  // namespace perimorph::fracture

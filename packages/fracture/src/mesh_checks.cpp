@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "geometry.hpp"
 #include "group_checks.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/probes.hpp"
@@ -105,19 +106,17 @@ struct Part {
 template <int dim>
 class Checks {
  public:
-  using Zones = std::vector<morphing::Zone<dim>>;
-
-  Checks(const Case& input, const Zones& seeds, const mesh::Mesh<dim>& whole)
-      : input_(input), seeds_(seeds), mesh_(whole), mistakes_(input.file) {}
+  Checks(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& mistakes)
+      : input_(input), mesh_(whole), mistakes_(mistakes) {}
 
   void run() {
     check_groups(input_.resolved, input_.lines, mesh_, mistakes_);
-    const bool are_supports_known = mistakes_.empty();
-    check_probes();
+    const bool are_supports_known = mistakes_.none_in(displacements_path);
     check_contradictions();
     if (are_supports_known) check_free_motions();
-    check_horizon();
-    mistakes_.report();
+    if (!mistakes_.none_in("/Mesh")) return;  // lengths may be wrong
+    check_probes();
+    if (mistakes_.none_in("/Peridynamics")) check_horizon();
   }
 
  private:
@@ -210,13 +209,15 @@ class Checks {
 
   /// With a horizon that ends inside the element hardly any bond leads out of it, and the zone is no solid body.
   void check_horizon() {
-    for (std::size_t s = 0; s < seeds_.size(); ++s) {
+    for (const Seed& seed : input_.seeds) {
+      if (seed.shape == SeedShape::automatic) continue;
+      const auto zone = zone_of<dim>(seed);
       double largest = 0.;
       Point<dim> center = Point<dim>::Zero();
       for (int e = 0; e < mesh_.n_elements(); ++e) {
         const Point<dim> x = mesh::centroid(mesh_, e);
         const double reach = mesh::radius(mesh_, e);
-        if (reach <= largest || seeds_[s].alpha(x, input_.profile) < 1.) continue;
+        if (reach <= largest || zone.alpha(x, input_.profile) < 1.) continue;
         largest = reach;
         center = x;
       }
@@ -224,26 +225,23 @@ class Checks {
       add("/Peridynamics/Horizon",
           fmt::format("found {:.6g}, but in the seed {} the element at ({:.6g}) reaches {:.6g} from its centre to its "
                       "corners; allowed is no less than that (three element sizes are usual), or a finer mesh there",
-                      input_.horizon, in_quotes(input_.seeds[s].name), fmt::join(center.begin(), center.end(), ", "),
-                      largest));
+                      input_.horizon, in_quotes(seed.name), fmt::join(center.begin(), center.end(), ", "), largest));
     }
   }
 
   const Case& input_;
-  const Zones& seeds_;
   const mesh::Mesh<dim>& mesh_;
-  Mistakes mistakes_;
+  Mistakes& mistakes_;
 };
 
 }  // namespace
 
 template <int dim>
-void check_against_mesh(const Case& input, const std::vector<morphing::Zone<dim>>& seeds,
-                        const mesh::Mesh<dim>& whole) {
-  Checks<dim>(input, seeds, whole).run();
+void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& mistakes) {
+  Checks<dim>(input, whole, mistakes).run();
 }
 
-template void check_against_mesh(const Case&, const std::vector<morphing::Zone<2>>&, const mesh::Mesh<2>&);
-template void check_against_mesh(const Case&, const std::vector<morphing::Zone<3>>&, const mesh::Mesh<3>&);
+template void check_against_mesh(const Case&, const mesh::Mesh<2>&, Mistakes&);
+template void check_against_mesh(const Case&, const mesh::Mesh<3>&, Mistakes&);
 
 }  // namespace perimorph::fracture

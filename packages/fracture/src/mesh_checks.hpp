@@ -1,17 +1,17 @@
 #pragma once
 
+#include "mistakes.hpp"
 #include "perimorph/fracture/case.hpp"
 #include "perimorph/mesh/mesh.hpp"
-#include "perimorph/morphing/morphing_field.hpp"
 
 namespace perimorph::fracture {
 
 /// What a case and its whole mesh must agree on: the groups exist and are of the right kind, no two displacements
 /// contradict each other on a node, every part of the body (elements connected by nodes) is held against all rigid
-/// motions, and the horizon reaches beyond the elements inside the seeds. Local.
-/// @param seeds the zones of input.seeds, in that order
-/// @throws UserError that lists all mistakes, a line each.
+/// motions, probes are in it, and the horizon reaches beyond the elements inside the seeds. Local.
+/// @param input of a case with mistakes, what is sound; nothing is said of what depends on the rest
+/// @param mistakes those of the case; to these are added
 template <int dim>
-void check_against_mesh(const Case& input, const std::vector<morphing::Zone<dim>>& seeds, const mesh::Mesh<dim>& whole);
+void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& mistakes);
 
 }  // namespace perimorph::fracture

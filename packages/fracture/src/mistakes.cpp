@@ -23,21 +23,26 @@ int line_of(const std::map<std::string, int>& lines, std::string path) {
 
 void Mistakes::add(int line, const std::string& path, const std::string& what) {
   const std::string where = line == command_line ? "--set" : fmt::format("{}:{}", file_, line);
-  found_.emplace_back(line, fmt::format("{}: {}{}{}", where, path, path.empty() ? "" : ": ", what));
+  found_.push_back({line, path, fmt::format("{}: {}{}{}", where, path, path.empty() ? "" : ": ", what)});
   if (found_.size() == most_mistakes) report();
 }
 
 void Mistakes::report() {
   if (found_.empty()) return;
   std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
-    return a.first != command_line && (b.first == command_line || a.first < b.first);
+    return a.line != command_line && (b.line == command_line || a.line < b.line);
   });
   std::string text = fmt::format("{} mistake{} in {}", found_.size(), found_.size() == 1 ? "" : "s", file_);
   if (found_.size() == most_mistakes) {
     text = fmt::format("more than {} mistakes in {}, of which the first are", most_mistakes - 1, file_);
   }
-  for (const auto& [line, message] : found_) text += "\n" + message;
+  for (const auto& mistake : found_) text += "\n" + mistake.message;
   throw base::UserError(text);
+}
+
+bool Mistakes::none_in(const std::string& path) const {
+  return std::none_of(found_.begin(), found_.end(),
+                      [&](const Mistake& mistake) { return (mistake.path + "/").rfind(path + "/", 0) == 0; });
 }
 
 std::string in_quotes(const std::string& text) {

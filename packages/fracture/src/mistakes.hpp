@@ -2,7 +2,6 @@
 
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace perimorph::fracture {
@@ -27,9 +26,17 @@ class Mistakes {
 
   bool empty() const { return found_.empty(); }
 
+  /// Whether none is at the path or below it.
+  bool none_in(const std::string& path) const;
+
  private:
+  struct Mistake {
+    int line;
+    std::string path, message;
+  };
+
   std::string file_;
-  std::vector<std::pair<int, std::string>> found_;  ///< line, message
+  std::vector<Mistake> found_;
 };
 
 /// A piece of the file for a message: in quotes, without control characters, not too long.

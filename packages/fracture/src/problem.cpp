@@ -2,10 +2,9 @@
 
 #include <limits>
 
+#include "geometry.hpp"
 #include "mesh_checks.hpp"
-#include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/distribute.hpp"
-#include "perimorph/mesh/read_mesh.hpp"
 
 namespace perimorph::fracture {
 
@@ -16,37 +15,6 @@ namespace {
 template <int dim>
 Point<dim> point(const std::vector<double>& values, std::size_t offset = 0) {
   return Eigen::Map<const Point<dim>>(values.data() + offset);
-}
-
-template <int dim>
-morphing::Zone<dim> make_zone(const Seed& seed) {
-  using Zone = morphing::Zone<dim>;
-  switch (seed.shape) {
-    case SeedShape::ball:
-      return Zone::ball(point<dim>(seed.center), seed.inner_radius, seed.outer_radius);
-    case SeedShape::cylinder:
-      return Zone::cylinder(point<dim>(seed.start), point<dim>(seed.end), seed.inner_radius, seed.outer_radius);
-    case SeedShape::box:
-      return Zone::box(point<dim>(seed.lower_corner), point<dim>(seed.upper_corner), seed.rim);
-    case SeedShape::everything:
-      return Zone::everything();
-    case SeedShape::automatic:  // has no place yet
-      break;
-  }
-  throw base::Bug("unknown seed shape");
-}
-
-template <int dim>
-std::vector<mesh::CrackFacet<dim>> facets(const PreCrack& crack) {
-  std::vector<Point<dim>> corners;
-  for (std::size_t i = 0; i < crack.points.size(); i += dim) corners.push_back(point<dim>(crack.points, i));
-  if constexpr (dim == 2) {
-    return mesh::polyline(corners);
-  } else {
-    return crack.shape == PreCrackShape::polygon
-               ? mesh::polygon(corners)
-               : mesh::disc(point<dim>(crack.center), point<dim>(crack.normal), crack.radius);
-  }
 }
 
 template <int dim>
@@ -92,12 +60,10 @@ Problem<dim> make_problem(const Case& input) {
     if (seed.shape == SeedShape::automatic) {
       problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});
     } else {
-      problem.seeds.push_back(make_zone<dim>(seed));
+      problem.seeds.push_back(zone_of<dim>(seed));
     }
   }
-  for (const auto& crack : input.pre_cracks) {
-    for (const auto& facet : facets<dim>(crack)) problem.pre_cracks.push_back(facet);
-  }
+  problem.pre_cracks = facets_of<dim>(input.pre_cracks);
   for (const auto& d : input.displacements) {
     problem.displacements.push_back({d.name, d.group, d.component, {d.rate, d.constant}});
   }
@@ -105,14 +71,14 @@ Problem<dim> make_problem(const Case& input) {
 }
 
 template <int dim>
-mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
-                                const std::string& folder) {
+mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder) {
   mesh::Mesh<dim> whole;
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
-    whole = mesh::mesh_and_read<dim>(input.mesh_file, folder, input.mesh_scale);
-    if (!problem.pre_cracks.empty()) mesh::open_along<dim>(whole, problem.pre_cracks);
-    check_against_mesh(input, problem.seeds, whole);
+    whole = read_opened_mesh<dim>(input, folder);
+    Mistakes mistakes(input.file);
+    check_against_mesh(input, whole, mistakes);
+    mistakes.report();
   });
   return whole;
 }
@@ -126,8 +92,7 @@ mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& w
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                              \
   template Problem<dim> make_problem<dim>(const Case&);                                                         \
-  template mesh::Mesh<dim> read_whole_mesh<dim>(const base::Comm&, const Case&, const Problem<dim>&,            \
-                                                const std::string&);                                            \
+  template mesh::Mesh<dim> read_whole_mesh<dim>(const base::Comm&, const Case&, const std::string&);            \
   template mesh::Mesh<dim> distribute_mesh<dim>(const base::Comm&, const mesh::Mesh<dim>&, const Problem<dim>&, \
                                                 const std::vector<double>&);
 

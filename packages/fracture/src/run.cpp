@@ -130,7 +130,7 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     auto problem = make_problem<dim>(input);
     const auto whole = [&] {
       const auto timer = profile.measure(base::Phase::read);
-      auto mesh = read_whole_mesh(*comm, input, problem, folder);
+      auto mesh = read_whole_mesh<dim>(*comm, input, folder);
       checkpoints.identify(mesh);
       checkpoints.expect_costs(expected_costs(mesh, problem));
       return mesh;
@@ -168,7 +168,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   const TemporaryFolder folder;
   const auto log = base::make_log(*comm, talk == Talk::quiet);
   auto problem = make_problem<dim>(input);
-  const auto whole = read_whole_mesh(*comm, input, problem, folder.path());
+  const auto whole = read_whole_mesh<dim>(*comm, input, folder.path());
   const auto mesh = distribute_mesh(*comm, whole, problem, expected_costs(whole, problem));
   log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);

@@ -128,7 +128,7 @@ Teuchos::ParameterList case_schema();
 
 /// Reads and checks a case file; overrides are "Section/Sub/Name=value". Local.
 /// @throws UserError that lists ALL mistakes, one a line, "file:line: /path: what was found; what is allowed"; if there
-///         are any, also the groups that the mesh does not have.
+///         are any, also what of the rest does not fit the mesh.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides = {});
 
 /// The values of a list: "/Section/Sub/Name = value", a line each.

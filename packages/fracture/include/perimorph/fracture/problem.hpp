@@ -37,12 +37,11 @@ template <int dim>
 Problem<dim> make_problem(const Case& input);
 
 /// Reads the case's mesh on rank 0 (a .geo file is meshed by gmsh first, and the mesh kept in the folder), opens it
-/// along the pre-cracks and checks the case's groups and supports against it. The mesh is whole on rank 0, empty on
+/// along the pre-cracks and checks the case against it. The mesh is whole on rank 0, empty on
 /// others. Collective.
 /// @throws UserError, on all ranks.
 template <int dim>
-mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const Problem<dim>& problem,
-                                const std::string& folder);
+mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder);
 
 /// Each rank's part of it, with a halo as the problem needs it. Collective.
 /// @param costs of each element of the whole mesh (on rank 0), or empty for equal ones

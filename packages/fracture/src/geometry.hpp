@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "perimorph/fracture/case.hpp"
+#include "perimorph/mesh/mesh.hpp"
+#include "perimorph/mesh/pre_crack.hpp"
+#include "perimorph/morphing/morphing_field.hpp"
+
+namespace perimorph::fracture {
+
+/// Of a seed that is not automatic: these have no place yet. Local.
+template <int dim>
+morphing::Zone<dim> zone_of(const Seed& seed);
+
+/// Of all pre-cracks. Local.
+template <int dim>
+std::vector<mesh::CrackFacet<dim>> facets_of(const std::vector<PreCrack>& cracks);
+
+/// The case's mesh, opened along its pre-cracks. A .geo file is meshed by gmsh first, and the mesh kept in the folder.
+/// Local.
+/// @throws UserError if it cannot be read.
+template <int dim>
+mesh::Mesh<dim> read_opened_mesh(const Case& input, const std::string& folder);
+
+}  // namespace perimorph::fracture
