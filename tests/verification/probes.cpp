@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "perimorph/fracture/geometry.hpp"
 #include "support/fracture_body.hpp"
 
 namespace perimorph::tests {

@@ -7,10 +7,10 @@
 #include "case_checks.hpp"
 #include "case_file.hpp"
 #include "choices.hpp"
-#include "geometry.hpp"
 #include "literal.hpp"
 #include "mesh_checks.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/fracture/geometry.hpp"
 #include "resolve.hpp"
 #include "temporary_folder.hpp"
 

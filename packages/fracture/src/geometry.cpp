@@ -1,4 +1,4 @@
-#include "geometry.hpp"
+#include "perimorph/fracture/geometry.hpp"
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/read_mesh.hpp"
@@ -57,6 +57,19 @@ std::vector<mesh::CrackFacet<dim>> facets_of(const std::vector<PreCrack>& cracks
 }
 
 template <int dim>
+std::vector<Point<dim>> places_of(const Probe& probe) {
+  const auto corner = [&](std::size_t k) { return point<dim>(probe.points, k * dim); };
+  std::vector<Point<dim>> places;
+  for (std::size_t k = 0; (k + 2) * dim <= probe.points.size(); ++k) {
+    for (int i = 0; i < probe.divisions; ++i) {
+      places.push_back(corner(k) + (corner(k + 1) - corner(k)) * i / probe.divisions);
+    }
+  }
+  places.push_back(corner(probe.points.size() / dim - 1));
+  return places;
+}
+
+template <int dim>
 mesh::Mesh<dim> read_opened_mesh(const Case& input, const std::string& folder) {
   auto whole = mesh::mesh_and_read<dim>(input.mesh_file, folder, input.mesh_scale);
   if (!input.pre_cracks.empty()) mesh::open_along<dim>(whole, facets_of<dim>(input.pre_cracks));
@@ -66,6 +79,7 @@ mesh::Mesh<dim> read_opened_mesh(const Case& input, const std::string& folder) {
 #define PERIMORPH_INSTANTIATE(dim)                                                          \
   template morphing::Zone<dim> zone_of<dim>(const Seed&);                                   \
   template std::vector<mesh::CrackFacet<dim>> facets_of<dim>(const std::vector<PreCrack>&); \
+  template std::vector<Point<dim>> places_of<dim>(const Probe&);                            \
   template mesh::Mesh<dim> read_opened_mesh<dim>(const Case&, const std::string&);
 
 PERIMORPH_INSTANTIATE(2)

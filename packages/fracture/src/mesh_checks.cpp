@@ -6,10 +6,10 @@
 #include <map>
 #include <numeric>
 
-#include "geometry.hpp"
 #include "group_checks.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/fracture/probes.hpp"
+#include "perimorph/elements/locator.hpp"
+#include "perimorph/fracture/geometry.hpp"
 
 namespace perimorph::fracture {
 

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "perimorph/fracture/geometry.hpp"
 #include "perimorph/operators/fields.hpp"
 
 namespace perimorph::fracture {
@@ -39,19 +40,6 @@ Point<dim> interpolated_displacement(const Body<dim>& body, const elements::Loca
 }
 
 }  // namespace
-
-template <int dim>
-std::vector<Point<dim>> places_of(const Probe& probe) {
-  const auto corner = [&](std::size_t k) { return Point<dim>(Eigen::Map<const Point<dim>>(&probe.points[k * dim])); };
-  std::vector<Point<dim>> places;
-  for (std::size_t k = 0; (k + 2) * dim <= probe.points.size(); ++k) {
-    for (int i = 0; i < probe.divisions; ++i) {
-      places.push_back(corner(k) + (corner(k + 1) - corner(k)) * i / probe.divisions);
-    }
-  }
-  places.push_back(corner(probe.points.size() / dim - 1));
-  return places;
-}
 
 template <int dim>
 Probes<dim>::Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<Probe>& probes) {
@@ -93,8 +81,6 @@ std::vector<typename Probes<dim>::Sample> Probes<dim>::measure(const base::Comm&
   return all;
 }
 
-template std::vector<Point<2>> places_of<2>(const Probe&);
-template std::vector<Point<3>> places_of<3>(const Probe&);
 template class Probes<2>;
 template class Probes<3>;
 

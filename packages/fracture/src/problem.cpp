@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "geometry.hpp"
 #include "mesh_checks.hpp"
+#include "perimorph/fracture/geometry.hpp"
 #include "perimorph/mesh/distribute.hpp"
 
 namespace perimorph::fracture {

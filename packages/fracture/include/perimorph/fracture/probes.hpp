@@ -9,10 +9,6 @@
 
 namespace perimorph::fracture {
 
-/// Where a probe measures: the given points and those that divide the segments between them, in order.
-template <int dim>
-std::vector<base::Point<dim>> places_of(const Probe& probe);
-
 /// All probes of a case in one mesh. A place is in the element of the lowest global id that holds it, whatever the
 /// ranks: where elements have parted, on one side of the crack.
 template <int dim>

@@ -18,6 +18,10 @@ morphing::Zone<dim> zone_of(const Seed& seed);
 template <int dim>
 std::vector<mesh::CrackFacet<dim>> facets_of(const std::vector<PreCrack>& cracks);
 
+/// Where a probe measures: the given points and those that divide the segments between them, in order. Local.
+template <int dim>
+std::vector<base::Point<dim>> places_of(const Probe& probe);
+
 /// The case's mesh, opened along its pre-cracks. A .geo file is meshed by gmsh first, and the mesh kept in the folder.
 /// Local.
 /// @throws UserError if it cannot be read.
