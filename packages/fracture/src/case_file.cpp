@@ -157,9 +157,8 @@ class Reader {
   bool read_name(const pugi::xml_node& node, const std::string& path, Node& result) {
     result.name = node.attribute("name").value();
     result.line = line(node);
-    const bool control = std::any_of(result.name.begin(), result.name.end(),
-                                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-    if (!result.name.empty() && result.name.size() <= longest_name && !control) return true;
+    const bool is_readable = result.name.size() <= longest_name && !base::has_control_characters(result.name);
+    if (!result.name.empty() && is_readable) return true;
     add(node, path,
         result.name.empty() ? fmt::format("<{}> without a name; name=\"...\" is needed", node.name())
                             : fmt::format("found the name {}; allowed is a readable one of at most {} characters",

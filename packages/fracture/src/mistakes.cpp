@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
 
 namespace perimorph::fracture {
 
@@ -48,7 +49,7 @@ bool Mistakes::none_in(const std::string& path) const {
 std::string in_quotes(const std::string& text) {
   std::string shown = text.substr(0, most_characters);
   for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    if (base::is_control(c)) c = '?';
   }
   return fmt::format("\"{}{}\"", shown, text.size() > most_characters ? "..." : "");
 }

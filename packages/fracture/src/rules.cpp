@@ -66,9 +66,10 @@ RulePtr text(const std::string& what) {
 RulePtr mesh_file() {
   std::vector<std::string> endings = mesh::mesh_file_endings();
   endings.insert(endings.begin(), ".geo");
-  const std::string allowed = "the name of a file that ends in " + base::quoted_list(endings, " or ");
+  const std::string allowed = "a readable name of a file that ends in " + base::quoted_list(endings, " or ");
   return rule<std::string>(allowed, [endings](const std::string& value) {
-    return std::find(endings.begin(), endings.end(), std::filesystem::path(value).extension()) != endings.end();
+    const auto ending = std::filesystem::path(value).extension();
+    return !base::has_control_characters(value) && std::find(endings.begin(), endings.end(), ending) != endings.end();
   });
 }
 

@@ -17,6 +17,7 @@
 #include "classic_header.hpp"
 #include "file_cursor.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
 #include "perimorph/mesh/element_type.hpp"
 #include "trial.hpp"
 
@@ -55,8 +56,6 @@ Shape side_shape(int element_dimension, std::size_t n_side_nodes) {
   if (element_dimension == 2) return Shape::line;
   return n_side_nodes == 3 ? Shape::triangle : Shape::quadrangle;
 }
-
-bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
 
 enum class Container { netcdf, hdf5 };
 
@@ -186,7 +185,7 @@ class Reader {
     std::string name(longest_name + 1, '\0');
     if (ex_get_name(handle_.id(), kind, id, name.data()) < 0) name.clear();
     name.resize(std::min(name.find('\0'), name.size()));
-    if (std::any_of(name.begin(), name.end(), is_control)) {
+    if (base::has_control_characters(name)) {
       fail("the name \"{}\" has control characters; allowed are readable names", excerpt(name));
     }
     return name.empty() ? fmt::format("{}_{}", unnamed, id) : name;

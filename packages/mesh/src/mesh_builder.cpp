@@ -60,8 +60,7 @@ class MeshBuilder {
 
   std::string group_name(const GroupKey& group) const {
     const std::string& name = file_.group_names.at(group);
-    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-    if (name.empty() || name.size() > longest_name || std::any_of(name.begin(), name.end(), is_control)) {
+    if (name.empty() || name.size() > longest_name || base::has_control_characters(name)) {
       fail("{} {} has a name of {} characters; allowed are readable names of at most {}", entity_name(group.first),
            group.second, name.size(), longest_name);
     }

@@ -12,4 +12,10 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
 /// The texts joined by a separator, each in double quotes.
 std::string quoted_list(const std::vector<std::string>& texts, const std::string& separator = ", ");
 
+/// Whether it steers a terminal; the end of a line does.
+bool is_control(char c);
+
+/// Whether a name or message has such characters.
+bool has_control_characters(const std::string& text);
+
 }  // namespace perimorph::base
