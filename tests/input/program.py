@@ -171,6 +171,11 @@ class Meshes(Program):
             self.write("plate.xml", case(mesh=name))
             self.assert_refused(what.replace("no regular", "is not a regular"))
 
+    def test_a_geometry_that_cannot_be_read(self):
+        for name, why in [("absent.geo", "No such file or directory"), ("a" * 300 + ".geo", "File name too long")]:
+            self.write("plate.xml", case().replace("plate.msh", name))
+            self.assert_refused(f"{name}: cannot be read: {why}")
+
     def test_huge_counts(self):
         self.write("plate.msh", MSH.replace("$Nodes\n10", "$Nodes\n1000000000000"))
         self.assert_refused("a count of 1000000000000, but the rest of the file holds at most")

@@ -4,13 +4,25 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
+
+#include "perimorph/base/errors.hpp"
 
 namespace perimorph::fracture {
 
 /// A folder of this process that goes when this goes.
 class TemporaryFolder {
  public:
-  TemporaryFolder() { std::filesystem::create_directories(path_); }
+  /// @throws UserError if there is no place for it.
+  TemporaryFolder() {
+    std::error_code error;
+    path_ = std::filesystem::temp_directory_path(error) / ("perimorph-" + std::to_string(getpid()));
+    if (!error) std::filesystem::create_directories(path_, error);
+    if (error) {
+      throw base::UserError(fmt::format(
+          "no temporary folder: {}; TMPDIR, or else /tmp, must be a folder that can be written to", error.message()));
+    }
+  }
   ~TemporaryFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
@@ -21,7 +33,7 @@ class TemporaryFolder {
   std::string path() const { return path_.string(); }
 
  private:
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("perimorph-" + std::to_string(getpid()));
+  std::filesystem::path path_;
 };
 
 }  // namespace perimorph::fracture

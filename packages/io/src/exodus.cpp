@@ -228,8 +228,8 @@ void put_sets(const File& file, const ExodusModel<dim>& model) {
 std::vector<std::string> files_of(const std::string& name) {
   const std::filesystem::path path(name);
   std::vector<std::string> found;
-  if (std::filesystem::exists(path)) found.push_back(name);
   std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) found.push_back(name);
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string other = entry.path().filename(), first = path.filename();

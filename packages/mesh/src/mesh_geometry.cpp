@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "child_process.hpp"
+#include "file_cursor.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/gmsh.hpp"
 
@@ -112,7 +113,7 @@ void remove_quietly(const std::string& file) {
 }  // namespace
 
 void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension) {
-  if (!std::filesystem::is_regular_file(geo_file)) throw base::UserError(geo_file + ": no such file");
+  require_regular_file(geo_file, "a geometry of gmsh");
   remove_quietly(msh_file);
   const Outcome outcome =
       run({"gmsh", fmt::format("-{}", dimension), "-format", "msh41", "-bin", "-v", "2", geo_file, "-o", msh_file});
@@ -123,7 +124,8 @@ void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int
     throw base::UserError(
         fmt::format("{}: gmsh cannot be started: {}", geo_file, std::generic_category().message(outcome.start_error)));
   }
-  if (outcome.status != 0 || !std::filesystem::is_regular_file(msh_file)) {
+  std::error_code ignored;
+  if (outcome.status != 0 || !std::filesystem::is_regular_file(msh_file, ignored)) {
     remove_quietly(msh_file);
     throw base::UserError(
         fmt::format("{}: {}. Its messages:\n{}", geo_file, how_it_ended(outcome), excerpt_of(outcome.output)));

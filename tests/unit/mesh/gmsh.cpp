@@ -185,7 +185,8 @@ TEST(MeshGeometry, ALeftOverMeshIsNotTakenForTheNewOne) {
 }
 
 TEST(MeshGeometry, AMissingFileIsReported) {
-  EXPECT_EQ(error_of_meshing("nowhere/plate.geo", "plate.msh"), "nowhere/plate.geo: no such file");
+  EXPECT_EQ(error_of_meshing("nowhere/plate.geo", "plate.msh"),
+            "nowhere/plate.geo: cannot be read: No such file or directory");
 }
 
 TEST(MeshGeometry, AMissingGmshIsReportedWithItsPackage) {
