@@ -7,8 +7,24 @@
 #include "input_file.hpp"
 #include "perimorph/base/errors.hpp"
 
+namespace {
+
+/// The file with the bytes, and beside it "plate.msh", a square with the groups left, right and top.
+class CaseFile : public perimorph::fuzz::InputFile {
+ public:
+  CaseFile() : InputFile(".xml") {
+    std::ofstream(folder() / "plate.msh")
+        << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+           "$PhysicalNames\n4\n1 1 \"left\"\n1 2 \"right\"\n1 3 \"top\"\n2 4 \"body\"\n$EndPhysicalNames\n"
+           "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+           "$Elements\n4\n1 1 2 1 1 1 4\n2 1 2 2 2 2 3\n3 1 2 3 3 3 4\n4 3 2 4 4 1 2 3 4\n$EndElements\n";
+  }
+};
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const perimorph::fuzz::InputFile input(".xml");
+  static const CaseFile input;
   const std::string& file = input.with(data, size);
   try {
     const auto result = perimorph::fracture::read_case(file);

@@ -6,17 +6,23 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
 namespace perimorph::fuzz {
 
-/// The same file for all inputs of this process. It stays where a crash ended the process, and then holds its cause.
+/// The same file for all inputs of this process, in a folder of its own. It stays where a crash ended the process, and
+/// then holds its cause.
 class InputFile {
  public:
-  explicit InputFile(const std::string& ending)
-      : name_("/dev/shm/perimorph_fuzz_" + std::to_string(getpid()) + ending) {}
-  ~InputFile() { unlink(name_.c_str()); }
+  explicit InputFile(const std::string& ending) : name_(folder_ / ("input" + ending)) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~InputFile() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
@@ -28,7 +34,10 @@ class InputFile {
     return name_;
   }
 
+  const std::filesystem::path& folder() const { return folder_; }
+
  private:
+  std::filesystem::path folder_ = "/dev/shm/perimorph_fuzz_" + std::to_string(getpid());
   std::string name_;
 };
 

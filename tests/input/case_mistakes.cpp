@@ -423,6 +423,12 @@ TEST_F(CaseFile, WhatFollowsFromAnotherMistakeIsNotListed) {
   EXPECT_THAT(error(replaced(valid, R"xml(value="y")xml", R"xml(value="q")xml")), StartsWith("1 mistake in "));
 }
 
+TEST_F(CaseFile, AProbeHasNotMorePlacesThanMemory) {
+  EXPECT_THAT(
+      error(valid, {"Output/Probes/line/Points={0, 0, 1, 1}", "Output/Probes/line/Divisions=2000000000"}),
+      HasSubstr("--set: /Output/Probes/line/Divisions: found 2000000000; allowed are less than 1000000 places"));
+}
+
 TEST_F(CaseFile, AMeshThatCannotBeReadIsOneMistakeAmongTheOthers) {
   std::filesystem::remove(folder_ / "plate.msh");
 

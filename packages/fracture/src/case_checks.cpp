@@ -4,6 +4,7 @@
 #include <Teuchos_Array.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 
 #include "choices.hpp"
@@ -34,6 +35,7 @@ class Section {
   }
 
   const double* number(const std::string& name) const { return list_.getPtr<double>(name); }
+  const int* count(const std::string& name) const { return list_.getPtr<int>(name); }
   const std::string* text(const std::string& name) const { return list_.getPtr<std::string>(name); }
   const Numbers* numbers(const std::string& name) const { return list_.getPtr<Numbers>(name); }
   const Teuchos::Array<std::string>* texts(const std::string& name) const {
@@ -268,10 +270,19 @@ void check_load(const Section& load, int dimension) {
 }
 
 void check_probe(const Section& probe, int dimension) {
+  constexpr std::int64_t most_places = 1'000'000;
   const Numbers* points = probe.numbers("Points");
-  if (points == nullptr || (!points->empty() && points->size() % dimension == 0)) return;
-  probe.mistake("Points", fmt::format("found {} numbers; allowed are one point or more, {} numbers each",
-                                      points->size(), dimension));
+  if (points == nullptr) return;
+  if (points->empty() || points->size() % dimension != 0) {
+    probe.mistake("Points", fmt::format("found {} numbers; allowed are one point or more, {} numbers each",
+                                        points->size(), dimension));
+    return;
+  }
+  const int* divisions = probe.count("Divisions");
+  const std::int64_t n_segments = points->size() / dimension - 1;
+  if (divisions == nullptr || n_segments * *divisions < most_places) return;
+  probe.mistake("Divisions", fmt::format("found {} of each of {} segments; allowed are less than {} places in all",
+                                         *divisions, n_segments, most_places));
 }
 
 void check_reactions(const Section& output) {
