@@ -2,6 +2,7 @@
 
 #include "perimorph/fracture/case.hpp"
 
+#include <Kokkos_Core.hpp>
 #include <algorithm>
 
 #include "input_file.hpp"
@@ -24,6 +25,7 @@ class CaseFile : public perimorph::fuzz::InputFile {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Kokkos::ScopeGuard kokkos;
   static const CaseFile input;
   const std::string& file = input.with(data, size);
   try {

@@ -281,8 +281,8 @@ void check_probe(const Section& probe, int dimension) {
   const int* divisions = probe.count("Divisions");
   const std::int64_t n_segments = points->size() / dimension - 1;
   if (divisions == nullptr || n_segments * *divisions < most_places) return;
-  probe.mistake("Divisions", fmt::format("found {} of each of {} segments; allowed are less than {} places in all",
-                                         *divisions, n_segments, most_places));
+  probe.mistake("Divisions",
+                fmt::format("found {}; allowed are less than {} places in one probe", *divisions, most_places));
 }
 
 void check_reactions(const Section& output) {
