@@ -10,9 +10,11 @@
 If (!Exists(thickness))
   thickness = 6;
 EndIf
+If (!Exists(dx))
+  dx = 1;  // of the elements
+EndIf
 width = 24;
 height = 48;
-dx = 1;  // of the elements
 
 Point(1) = {0, -height / 2, 0};
 Point(2) = {width / 2, -height / 2, 0};
@@ -45,3 +47,7 @@ Physical Curve("lower_hinge") =
 Physical Curve("upper_hinge") =
     Curve In BoundingBox{width / 2 - e, height / 2 - e, -e, width / 2 + e, height / 2 + e, thickness + e};
 Physical Point("hinge_end") = {2};
+Physical Surface("bottom") =
+    Surface In BoundingBox{-e, -height / 2 - e, -e, width + e, -height / 2 + e, thickness + e};
+Physical Surface("top") =
+    Surface In BoundingBox{-e, height / 2 - e, -e, width + e, height / 2 + e, thickness + e};

@@ -1,0 +1,3 @@
+// Elements of about half the size.
+dx = 0.48;
+Include "single_edge_block.geo";
