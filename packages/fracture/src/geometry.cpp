@@ -10,11 +10,6 @@ using base::Point;
 namespace {
 
 template <int dim>
-Point<dim> point(const std::vector<double>& values, std::size_t offset = 0) {
-  return Eigen::Map<const Point<dim>>(values.data() + offset);
-}
-
-template <int dim>
 std::vector<mesh::CrackFacet<dim>> facets_of(const PreCrack& crack) {
   std::vector<Point<dim>> corners;
   for (std::size_t i = 0; i < crack.points.size(); i += dim) corners.push_back(point<dim>(crack.points, i));

@@ -8,14 +8,7 @@
 
 namespace perimorph::fracture {
 
-using base::Point;
-
 namespace {
-
-template <int dim>
-Point<dim> point(const std::vector<double>& values, std::size_t offset = 0) {
-  return Eigen::Map<const Point<dim>>(values.data() + offset);
-}
 
 template <int dim>
 discretization::Loads<dim> make_loads(const Case& input) {

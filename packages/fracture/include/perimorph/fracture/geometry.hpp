@@ -10,6 +10,12 @@
 
 namespace perimorph::fracture {
 
+/// Numbers of a case as a point, from the offset on. Local.
+template <int dim>
+base::Point<dim> point(const std::vector<double>& values, std::size_t offset = 0) {
+  return Eigen::Map<const base::Point<dim>>(values.data() + offset);
+}
+
 /// Of a seed that is not automatic: these have no place yet. Local.
 template <int dim>
 morphing::Zone<dim> zone_of(const Seed& seed);

@@ -37,8 +37,7 @@ template <int dim>
 Problem<dim> make_problem(const Case& input);
 
 /// Reads the case's mesh on rank 0 (a .geo file is meshed by gmsh first, and the mesh kept in the folder), opens it
-/// along the pre-cracks and checks the case against it. The mesh is whole on rank 0, empty on
-/// others. Collective.
+/// along the pre-cracks and checks the case against it. The mesh is whole on rank 0, empty on others. Collective.
 /// @throws UserError, on all ranks.
 template <int dim>
 mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder);
