@@ -317,7 +317,7 @@ void declare_solver(ParameterList& root) {
   section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
   section(
       solver, "MueLu",
-      "Any parameters of MueLu, handed on as they are, over the program's own. The V-cycle and its smoother are ours.");
+      "Any parameters of MueLu, handed on as they are, over the program's own. The W-cycle and its smoother are ours.");
 }
 
 void declare_probes(ParameterList& output) {

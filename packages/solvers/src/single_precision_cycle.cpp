@@ -81,6 +81,13 @@ class Smoother {
     }
   }
 
+  /// b - A x, with the copies of x up to date.
+  void residual(Values& b, Values& x, Values& residual) const {
+    for (int row = 0; row < n_rows(); ++row) {
+      at<size>(residual, row) = at<size>(b, row) - matrix_.product(row, x.data());
+    }
+  }
+
   /// A sweep from x, whose copies are up to date.
   void sweep_forward(Values& b, Values& x) const {
     for (int row = 0; row < n_rows(); ++row) relax(row, b, x);
@@ -152,16 +159,22 @@ class Level {
   Values& right_hand_side() { return b_; }
   const Values& solution() const { return x_; }
 
+  /// x after a cycle from zero.
   void solve() {
     smoother_.start(b_, x_);
     if (below_ == nullptr) return solve_coarsest();
     smoother_.residual_after_start(x_, residual_);
-    restriction_->apply(residual_,
-                        [this](int row, const auto& sum) { at<coarse>(below_->right_hand_side(), row) = sum; });
-    below_->solve();
-    prolongation_->apply(below_->solution(), [this](int row, const auto& sum) { at<size>(x_, row) += sum; });
+    correct();
+  }
+
+  /// x after another cycle.
+  void improve() {
+    if (below_ == nullptr) return;  // the coarsest level is solved well enough
     smoother_.update_ghosts(x_);
-    smoother_.sweep_backward(b_, x_);
+    smoother_.sweep_forward(b_, x_);
+    smoother_.update_ghosts(x_);
+    smoother_.residual(b_, x_, residual_);
+    correct();
   }
 
  private:
@@ -170,6 +183,17 @@ class Level {
   std::unique_ptr<Transfer<size, coarse>> prolongation_;
   std::unique_ptr<Level<coarse, coarse>> below_;
   Values b_, x_, residual_;
+
+  /// The coarse correction of x with its residual, and the sweep after it.
+  void correct() {
+    restriction_->apply(residual_,
+                        [this](int row, const auto& sum) { at<coarse>(below_->right_hand_side(), row) = sum; });
+    below_->solve();
+    below_->improve();
+    prolongation_->apply(below_->solution(), [this](int row, const auto& sum) { at<size>(x_, row) += sum; });
+    smoother_.update_ghosts(x_);
+    smoother_.sweep_backward(b_, x_);
+  }
 
   void solve_coarsest() {
     constexpr int n_symmetric_sweeps = 10;
@@ -185,9 +209,9 @@ class Level {
 };
 
 template <int dim>
-class VCycle : public SinglePrecisionCycle {
+class WCycle : public SinglePrecisionCycle {
  public:
-  explicit VCycle(const std::vector<CycleLevel>& levels)
+  explicit WCycle(const std::vector<CycleLevel>& levels)
       : matrix_(levels.front().matrix), finest_(levels.data(), levels.size()) {}
 
   Teuchos::RCP<const Tpetra::Map<>> getDomainMap() const override { return matrix_->getRowMap(); }
@@ -218,7 +242,7 @@ class VCycle : public SinglePrecisionCycle {
 
 template <int dim>
 Teuchos::RCP<SinglePrecisionCycle> make_single_precision_cycle(const std::vector<CycleLevel>& levels) {
-  return Teuchos::rcp(new VCycle<dim>(levels));
+  return Teuchos::rcp(new WCycle<dim>(levels));
 }
 
 template Teuchos::RCP<SinglePrecisionCycle> make_single_precision_cycle<2>(const std::vector<CycleLevel>&);

@@ -13,7 +13,7 @@ struct CycleLevel {
   Teuchos::RCP<const Matrix> matrix, restriction, prolongation;
 };
 
-/// One V-cycle as a linear operator, symmetric and positive definite if the matrices are. Everything inside is single
+/// One W-cycle as a linear operator, symmetric and positive definite if the matrices are. Everything inside is single
 /// precision: the cycle is bound by memory, and a preconditioner need not be exact.
 ///
 /// It smooths by a forward sweep of Gauss-Seidel over blocks (nodes, aggregates) before the coarse correction and by a

@@ -1,4 +1,4 @@
-// The V-cycle as an operator.
+// The W-cycle as an operator.
 
 #include "perimorph/solvers/multigrid.hpp"
 

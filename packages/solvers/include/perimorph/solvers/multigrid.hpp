@@ -24,7 +24,7 @@ struct NearNullSpace {
 template <int dim>
 NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Point<dim>>& coordinates);
 
-/// Smoothed-aggregation multigrid for elasticity: MueLu's hierarchy and our V-cycle (KLU2, on MueLu's coarsest level,
+/// Smoothed-aggregation multigrid for elasticity: MueLu's hierarchy and our W-cycle (KLU2, on MueLu's coarsest level,
 /// is wrong on more than one rank). Made for one matrix pattern.
 class Multigrid {
  public:
