@@ -106,8 +106,9 @@ struct WholeRun {
   }
 
   void advance_to(const fracture::Case& input, int increment) {
+    fracture::LoopPosition position;
     fracture::run_adaptive_loop(body, results, checkpoints,
-                                {increment, input.max_damage_iterations, input.max_zone_growths});
+                                {increment, input.max_damage_iterations, input.max_zone_growths}, position);
     body.forget_solves();  // the preconditioner is not there after a restart
   }
 

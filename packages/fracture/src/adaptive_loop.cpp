@@ -16,15 +16,16 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
 
 template <int dim>
 bool run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints,
-                       const LoopLimits& limits) {
+                       const LoopLimits& limits, LoopPosition& position) {
   for (int increment = checkpoints.increment() + 1; increment <= limits.increments; ++increment) {
-    body.apply_load(increment);
-    int growths = 0, damage_iterations = 0;
+    if (position.damage_iterations == 0) body.apply_load(increment);
     do {
-      check_limit(growths++, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
       body.update_topology();
+      if (checkpoints.is_to_be_parted_anew(body)) return false;
+      check_limit(position.growths++, limits.max_zone_growths, increment, "growths of the zone",
+                  "Maximum Zone Growths");
       const auto breaks = [&](Accuracy accuracy) {
-        check_limit(damage_iterations++, limits.max_damage_iterations, increment, "solves",
+        check_limit(position.damage_iterations++, limits.max_damage_iterations, increment, "solves",
                     "Maximum Damage Iterations");
         body.solve(accuracy);
         results.show_progress(increment, body);
@@ -34,14 +35,14 @@ bool run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>&
       while (breaks(Accuracy::breaking) || breaks(Accuracy::accepted)) {
       }
     } while (body.flag_damaged_elements() > 0);
+    position = {};
     results.accept(increment, body);
     checkpoints.accept(increment, body, results);
-    if (checkpoints.is_to_be_parted_anew() && increment < limits.increments) return false;
   }
   return true;
 }
 
-template bool run_adaptive_loop<2>(Body<2>&, Results<2>&, Checkpoints<2>&, const LoopLimits&);
-template bool run_adaptive_loop<3>(Body<3>&, Results<3>&, Checkpoints<3>&, const LoopLimits&);
+template bool run_adaptive_loop<2>(Body<2>&, Results<2>&, Checkpoints<2>&, const LoopLimits&, LoopPosition&);
+template bool run_adaptive_loop<3>(Body<3>&, Results<3>&, Checkpoints<3>&, const LoopLimits&, LoopPosition&);
 
 }  // namespace perimorph::fracture

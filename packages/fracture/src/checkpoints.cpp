@@ -101,7 +101,7 @@ ResultsState results_in(const base::Comm& comm, const io::Checkpoint& checkpoint
   };
   const auto counts = integers("results_counts");
   ResultsState state;
-  state.seconds = numbers("results").at(0);
+  state.seconds = state.seconds_before = numbers("results").at(0);
   state.series = {static_cast<int>(counts.at(0)), static_cast<int>(counts.at(1))};
   state.first_break = static_cast<int>(counts.at(2));
   state.broken = counts.at(3);
@@ -110,6 +110,11 @@ ResultsState results_in(const base::Comm& comm, const io::Checkpoint& checkpoint
   state.peaks = numbers("peaks");
   state.peak_increments = integers("peak_increments");
   return state;
+}
+
+template <int dim>
+std::vector<GlobalId> own_ids(const mesh::Mesh<dim>& mesh) {
+  return {mesh.element_ids.begin(), mesh.element_ids.begin() + mesh.n_owned_elements};
 }
 
 /// Every rank's elements' values out of those of all elements, which rank 0 has. Collective.
@@ -164,30 +169,31 @@ template <int dim>
 void Checkpoints<dim>::load() {
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
-    loaded_ = read_newest();
-    if (loaded_.integers.empty()) {
+    start_ = read_newest();
+    if (start_.integers.empty()) {
       log_->info("no checkpoint found: starting from the beginning");
       return;
     }
-    if (loaded_.integers["format"] != std::vector<GlobalId>{format}) {
+    if (start_.integers["format"] != std::vector<GlobalId>{format}) {
       throw base::UserError("--restart: the checkpoint is of another version of the program");
     }
-    const auto [here, there] = first_difference(case_lines_, loaded_.texts["case"]);
+    const auto [here, there] = first_difference(case_lines_, start_.texts["case"]);
     if (here != there) {
       throw base::UserError(
           fmt::format("--restart: the checkpoint belongs to another case: there \"{}\", here \"{}\"; "
                       "run without --restart, or name the case's own folder with --output",
                       there, here));
     }
-    costs_ = loaded_.numbers.at("element_costs");
-    log_->info("restart          after increment {}, {} broken bonds", loaded_.integers["increment"].at(0),
-               loaded_.integers["body_counts"].at(0));
+    costs_ = start_.numbers.at("element_costs");
+    log_->info("restart          after increment {}, {} broken bonds", start_.integers["increment"].at(0),
+               start_.integers["body_counts"].at(0));
   });
   GlobalId loaded = 0;
-  if (!loaded_.integers.empty()) loaded = loaded_.integers.at("increment").at(0);
+  if (!start_.integers.empty()) loaded = start_.integers.at("increment").at(0);
   increment_ = static_cast<int>(base::max(*comm_, loaded));
-  if (increment_ == 0) return;
-  results_ = results_in(*comm_, loaded_);
+  has_start_ = increment_ > 0;
+  if (!has_start_) return;
+  results_ = results_in(*comm_, start_);
   is_on_disk_ = true;
 }
 
@@ -197,7 +203,7 @@ void Checkpoints<dim>::identify(const mesh::Mesh<dim>& whole) {
     if (comm_->getRank() != 0) return;
     mesh_identity_ = {whole.n_global_elements, whole.n_global_nodes, mesh::fingerprint(whole)};
     if (increment_ == 0) return;
-    const auto& there = loaded_.integers["mesh"];
+    const auto& there = start_.integers["mesh"];
     if (there == mesh_identity_) return;
     const bool same_size = there.at(0) == mesh_identity_[0] && there.at(1) == mesh_identity_[1];
     throw base::UserError(fmt::format(
@@ -213,13 +219,10 @@ void Checkpoints<dim>::restore(Body<dim>& body) {
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() == 0) folder_.remove_after(increment_);
   });
-  if (increment_ == 0) return;
-  if (is_to_be_parted_anew_) {
-    loaded_ = gather();
-    is_to_be_parted_anew_ = false;
-  }
-  body.restore(body_state_in(loaded_, body.mesh()));
-  loaded_ = {};
+  if (!has_start_) return;
+  body.restore(body_state_in(start_, body.mesh()));
+  start_ = {};
+  has_start_ = false;
 }
 
 template <int dim>
@@ -247,31 +250,31 @@ bool Checkpoints<dim>::is_due(int increment) {
 
 template <int dim>
 void Checkpoints<dim>::accept(int increment, Body<dim>& body, const Results<dim>& results) {
-  const auto first = body.mesh().element_ids.begin();
-  own_ids_.assign(first, first + body.mesh().n_owned_elements);
   body_ = body.state();
+  own_ids_ = own_ids(body.mesh());
   results_ = results.state();
+  costs_then_ = costs_;
   increment_ = increment;
   is_on_disk_ = false;
-  balance(body);
   if (is_due(increment)) write();
-  if (is_to_be_parted_anew_) results_->seconds = results_->seconds_before;  // the clock goes on
   if (every_ > 0 && increment % every_ == 0) body.forget_solves();
 }
 
 /// A new partition is worth its price only if the zone has grown since the last one: what was uneven then cannot be
 /// mended.
 template <int dim>
-void Checkpoints<dim>::balance(const Body<dim>& body) {
+bool Checkpoints<dim>::is_to_be_parted_anew(const Body<dim>& body) {
   constexpr double growth = 1.2;
-  if (comm_->getSize() == 1 || body.counts().topologies == weighed_topology_) return;
+  if (comm_->getSize() == 1 || body.counts().topologies == weighed_topology_) return false;
   weighed_topology_ = body.counts().topologies;
   const auto [total, imbalance] = measure_load(*comm_, body);
   const double before = base::max(*comm_, std::accumulate(costs_.begin(), costs_.end(), 0.));
-  if (imbalance <= largest_imbalance_ || total <= growth * before) return;
-  costs_ = element_costs(*comm_, body);
-  is_to_be_parted_anew_ = true;
+  if (imbalance <= largest_imbalance_ || total <= growth * before) return false;
   log_->info("partition        anew: one rank has {:.2f} times the mean of the work", imbalance);
+  costs_ = element_costs(*comm_, body);
+  start_ = gather(body.state(), own_ids(body.mesh()));
+  has_start_ = true;
+  return true;
 }
 
 template <int dim>
@@ -286,32 +289,33 @@ void Checkpoints<dim>::heed_signals() {
 template <int dim>
 void Checkpoints<dim>::write() {
   if (increment_ == 0 || is_on_disk_) return;
-  const auto checkpoint = gather();
+  auto checkpoint = gather(body_, own_ids_);
   base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() == 0) folder_.write(increment_, checkpoint);
+    if (comm_->getRank() != 0) return;
+    checkpoint.integers["format"] = {format};
+    checkpoint.integers["increment"] = {increment_};
+    checkpoint.integers["mesh"] = mesh_identity_;
+    checkpoint.texts["case"] = case_lines_;
+    checkpoint.numbers["element_costs"] = costs_then_;
+    put_results(checkpoint, *results_);
+    folder_.write(increment_, checkpoint);
   });
   is_on_disk_ = true;
   is_asked_ = false;
   last_written_ = now();
 }
 
-/// On rank 0. Elements by global id, so that the ranks leave no trace.
+/// A body on rank 0. Elements by global id, so that the ranks leave no trace.
 template <int dim>
-io::Checkpoint Checkpoints<dim>::gather() const {
+io::Checkpoint Checkpoints<dim>::gather(const BodyState<dim>& state, const std::vector<GlobalId>& own_ids) const {
   constexpr auto stride = static_cast<std::size_t>(BodyState<dim>::values_per_element);
-  const auto broken = base::gather_on_root(*comm_, body_.broken);
-  const auto ids = base::gather_on_root(*comm_, own_ids_);
-  const auto values = base::gather_on_root(*comm_, body_.displacement);
+  const auto broken = base::gather_on_root(*comm_, state.broken);
+  const auto ids = base::gather_on_root(*comm_, own_ids);
+  const auto values = base::gather_on_root(*comm_, state.displacement);
   io::Checkpoint checkpoint;
   if (comm_->getRank() != 0) return checkpoint;
 
-  checkpoint.integers["format"] = {format};
-  checkpoint.integers["increment"] = {increment_};
-  checkpoint.integers["mesh"] = mesh_identity_;
-  checkpoint.texts["case"] = case_lines_;
-  put_body(checkpoint, body_);
-  put_results(checkpoint, *results_);
-  checkpoint.numbers["element_costs"] = costs_;
+  put_body(checkpoint, state);
   auto& displacement = checkpoint.numbers["displacement"];
   displacement.resize(values.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "columns.hpp"
 #include "perimorph/base/errors.hpp"
@@ -38,6 +39,24 @@ Texts path_columns() {
     for (int c = 0; c < dim; ++c) columns.push_back(fmt::format("{}_{}", axis_names[c], k));
   }
   return columns;
+}
+
+constexpr const char* path_name = "crack_path.csv";
+
+/// The pairs of elements in a table of open sides.
+std::set<std::pair<GlobalId, GlobalId>> sides_in(const std::string& file) {
+  std::set<std::pair<GlobalId, GlobalId>> sides;
+  std::ifstream table(file);
+  std::string row;
+  std::getline(table, row);  // names of the columns
+  while (std::getline(table, row)) {
+    long long first = 0, second = 0;
+    if (std::sscanf(row.c_str(), "%*d,%lld,%lld", &first, &second) != 2) {
+      throw base::UserError(fmt::format("{}: it cannot be continued: \"{}\" names no two elements", file, row));
+    }
+    sides.insert({first - 1, second - 1});
+  }
+  return sides;
 }
 
 std::string bonds_file(const std::string& folder, int increment) {
@@ -154,16 +173,10 @@ void Exports<dim>::open_tables(int increment) {
   if (!probes_.places().empty()) probe_table_ = table("probes.csv", probe_columns<dim>());
   if (records_crack_) {
     crack_table_ = table("crack.csv", crack_columns<dim>());
-    path_table_ = table("crack_path.csv", path_columns<dim>(), Rows::in_some);
+    path_table_ = table(path_name, path_columns<dim>(), Rows::in_some);
+    known_sides_ = sides_in((std::filesystem::path(folder_) / path_name).string());
   }
   remove_bonds_after(folder_, increment);
-}
-
-template <int dim>
-void Exports<dim>::take_over(const Body<dim>& body) {
-  if (!records_crack_) return;
-  const auto open = base::gather_on_root(*comm_, bonds::open_sides(body.mesh(), body.model().bonds));
-  known_sides_.insert(open.begin(), open.end());
 }
 
 template <int dim>
@@ -203,7 +216,7 @@ void Exports<dim>::record_crack(int increment, const Body<dim>& body) {
     double sides_size = 0.;
     for (const auto& side : open) {
       sides_size += bonds::size(side);
-      if (!known_sides_.insert(side).second) continue;
+      if (!known_sides_.insert({side.first, side.second}).second) continue;
       std::vector<double> row = {static_cast<double>(increment), static_cast<double>(side.first + 1),
                                  static_cast<double>(side.second + 1)};
       for (int k = 0; k < bonds::OpenSide<dim>::max_corners; ++k) {  // of a triangle the last one twice

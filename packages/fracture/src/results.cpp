@@ -281,7 +281,8 @@ void Results<dim>::open_series(const Case& input, const std::string& folder, std
 template <int dim>
 void Results<dim>::take_over(const ResultsState& earlier) {
   first_file_is_new_ = false;
-  earlier_seconds_ = earlier.seconds;
+  earlier_seconds_ = earlier.seconds_before;
+  seconds_before_ = last_word_ = earlier.seconds - earlier.seconds_before;
   first_break_ = earlier.first_break;
   broken_before_ = earlier.broken;
   total_solves_ = earlier.solves;

@@ -101,15 +101,13 @@ void save_what_is_left(Checkpoints<dim>& checkpoints, spdlog::logger& log) {
 template <int dim>
 bool run_on(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
             const Problem<dim>& problem, const std::string& folder, const Voice& voice, base::Profile& profile,
-            Checkpoints<dim>& checkpoints) {
+            Checkpoints<dim>& checkpoints, LoopPosition& position) {
   Body<dim> body(comm, mesh, problem, body_options(input), profile);
   Results<dim> results(comm, input, folder, voice, profile, checkpoints.increment(), checkpoints.results());
-  auto exports = std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment());
+  results.add_exports(std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment()));
   checkpoints.restore(body);
-  if (checkpoints.increment() > 0) exports->take_over(body);
-  results.add_exports(std::move(exports));
-  const bool is_done = run_adaptive_loop(body, results, checkpoints,
-                                         {input.increments, input.max_damage_iterations, input.max_zone_growths});
+  const LoopLimits limits{input.increments, input.max_damage_iterations, input.max_zone_growths};
+  const bool is_done = run_adaptive_loop(body, results, checkpoints, limits, position);
   if (is_done) results.summarize(body);
   return is_done;
 }
@@ -144,7 +142,8 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     place_and_calibrate(comm, mesh, input, problem, profile, log);
     const Voice voice{log, talk == Talk::progress && comm->getRank() == 0};
     try {
-      while (!run_on(comm, mesh, input, problem, folder, voice, profile, checkpoints)) mesh = distribute();
+      LoopPosition position;
+      while (!run_on(comm, mesh, input, problem, folder, voice, profile, checkpoints, position)) mesh = distribute();
     } catch (const base::ComputationError&) {
       save_what_is_left(checkpoints, *log);
       throw;

@@ -38,18 +38,18 @@ class Checkpoints {
   int increment() const { return increment_; }
   const std::optional<ResultsState>& results() const { return results_; }
 
-  /// The body goes on from what was loaded, or from what is remembered after is_to_be_parted_anew(); checkpoints after
-  /// that are removed. Collective.
+  /// The body goes on from what was loaded, or from where is_to_be_parted_anew() found it; checkpoints after the last
+  /// accepted increment are removed. Collective.
   void restore(Body<dim>& body);
 
   /// Remembers an accepted increment, and writes it if it is due. At every /Output/Checkpoint Every increments, the run
-  /// itself goes on as one that starts from there would, to the last bit. Decides whether the ranks share the work too
-  /// unevenly. Collective.
+  /// itself goes on as one that starts from there would, to the last bit. Collective.
   /// @throws ComputationError if it is due and cannot be written.
   void accept(int increment, Body<dim>& body, const Results<dim>& results);
 
-  /// From the last accepted increment on, another partition of the mesh would be better. Local.
-  bool is_to_be_parted_anew() const { return is_to_be_parted_anew_; }
+  /// Whether the ranks share the work so unevenly that another partition of the mesh is worth its price. Then another
+  /// body is to go on from here. To be asked when the topology has just been updated. Collective.
+  bool is_to_be_parted_anew(const Body<dim>& body);
 
   /// @throws ComputationError if a signal has asked the run to stop. Collective.
   void heed_signals();
@@ -69,13 +69,16 @@ class Checkpoints {
 
   std::vector<double> costs_;  ///< on rank 0, by element
   base::GlobalId weighed_topology_ = 0;
-  bool is_to_be_parted_anew_ = false;
 
   int increment_ = 0;        ///< loaded or remembered last
   bool is_on_disk_ = false;  ///< that one
   BodyState<dim> body_;
+  std::vector<base::GlobalId> own_ids_;  ///< of elements, in the order of body_.displacement
   std::optional<ResultsState> results_;
-  io::Checkpoint loaded_;  ///< on rank 0, until restored
+  std::vector<double> costs_then_;
+
+  io::Checkpoint start_;  ///< of the next body, on rank 0: loaded, or where the last body has come to
+  bool has_start_ = false;
 
   base::Signals signals_;
   bool is_asked_ = false;
@@ -83,10 +86,8 @@ class Checkpoints {
 
   io::Checkpoint read_newest() const;
   BodyState<dim> body_state_in(const io::Checkpoint& checkpoint, const mesh::Mesh<dim>& mesh) const;
-  io::Checkpoint gather() const;
-  std::vector<base::GlobalId> own_ids_;  ///< of elements, in the order of body_.displacement
+  io::Checkpoint gather(const BodyState<dim>& state, const std::vector<base::GlobalId>& own_ids) const;
   bool is_due(int increment);
-  void balance(const Body<dim>& body);
 };
 
 }  // namespace perimorph::fracture

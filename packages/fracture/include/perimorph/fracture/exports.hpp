@@ -20,9 +20,6 @@ class Exports {
   Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
           const std::string& folder, int increment);
 
-  /// The sides that are open in this body were so before: an earlier run has written them. Collective.
-  void take_over(const Body<dim>& body);
-
   /// Records an increment. Collective. @throws ComputationError if a file cannot be written.
   void accept(int increment, const Body<dim>& body);
 
@@ -34,7 +31,7 @@ class Exports {
   std::vector<int> bond_increments_;
   std::unique_ptr<io::History> probe_table_, crack_table_, path_table_;  ///< on rank 0, if asked for
   bool records_crack_;
-  std::set<bonds::OpenSide<dim>> known_sides_;  ///< on rank 0
+  std::set<std::pair<base::GlobalId, base::GlobalId>> known_sides_;  ///< in the path table, by elements; on rank 0
 
   void open_tables(int increment);
   void record_probes(int increment, const Body<dim>& body);
