@@ -351,9 +351,10 @@ double Body<dim>::breaking_stretch() const {
 template <int dim>
 void Body<dim>::take_out(const std::vector<std::size_t>& broken) {
   stiffness_->subtract(broken);
-  if (matrix_) matrix_->subtract(broken);
-  if (short_range_) short_range_->subtract(broken);
-  if (!broken.empty()) solver_.note_change();
+  std::vector<int> changed;  // in the preconditioner's matrix
+  if (matrix_) changed = matrix_->subtract(broken);
+  if (short_range_) changed = short_range_->subtract(broken);
+  if (!broken.empty()) solver_.note_change(changed);
 }
 
 template <int dim>

@@ -310,9 +310,8 @@ void declare_solver(ParameterList& root) {
              at_least(0.));
   solver.set(
       "Largest Imbalance", 1.25,
-      "Elements are parted among the ranks by their number of bonds, and anew after an increment in which the zone "
-      "has grown and one rank has more than so many times the mean of the work [-]. Near 1 it costs more than it "
-      "saves.",
+      "Elements are parted among the ranks by their number of bonds, and anew when the zone has grown and one rank has "
+      "more than so many times the mean of the work [-]. Near 1 it costs more than it saves.",
       at_least(1.));
   section(solver, "Belos", "Any parameters of Belos, handed on as they are, over the program's own.");
   section(

@@ -240,7 +240,8 @@ void CoupledStiffness<dim>::add_springs() {
 }
 
 template <int dim>
-void CoupledStiffness<dim>::subtract(const std::vector<std::size_t>& broken) {
+std::vector<int> CoupledStiffness<dim>::subtract(const std::vector<std::size_t>& broken) {
+  std::vector<int> changed;
   std::array<Block, elements::max_points> at_a, at_b;
   std::vector<Block> between;
   for (std::size_t next = 0; next < broken.size();) {
@@ -263,7 +264,13 @@ void CoupledStiffness<dim>::subtract(const std::vector<std::size_t>& broken) {
     add_between(pair, between);
     add_at_points(pair.first, at_a.data());
     add_at_points(pair.second, at_b.data());
+    for (const int element : {pair.first, pair.second}) {
+      const int* nodes = model_.dofs.nodes_of(element);
+      std::copy_if(nodes, nodes + model_.mesh.n_corners(element), std::back_inserter(changed),
+                   [&](int node) { return node < model_.dofs.n_owned_nodes(); });
+    }
   }
+  return changed;
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <algorithm>
+#include <numeric>
 
 namespace perimorph::solvers {
 
@@ -28,19 +29,21 @@ BlockMatrix<rows, cols>::BlockMatrix(const Matrix& matrix) : ghosts_(matrix.getD
     first_.push_back(columns_.size());
   }
   values_.assign(columns_.size() * n_groups * n_lanes, 0.f);
-  read_values(matrix);
+  block_at_.resize(ghosts_.n_all());
+  std::vector<int> all(n_rows);
+  std::iota(all.begin(), all.end(), 0);
+  read_values(matrix, all);
 }
 
 template <int rows, int cols>
-void BlockMatrix<rows, cols>::read_values(const Matrix& matrix) {
+void BlockMatrix<rows, cols>::read_values(const Matrix& matrix, const std::vector<int>& block_rows) {
   const auto local = matrix.getLocalMatrixHost();
-  std::vector<std::size_t> block_at(ghosts_.n_all());  // of the row, by block column
-  for (int row = 0; row < n_rows(); ++row) {
-    for (std::size_t b = first_[row]; b < first_[row + 1]; ++b) block_at[columns_[b]] = b;
+  for (const int row : block_rows) {
+    for (std::size_t b = first_[row]; b < first_[row + 1]; ++b) block_at_[columns_[b]] = b;
     for (int r = 0; r < rows; ++r) {
       for (auto k = local.graph.row_map(row * rows + r); k < local.graph.row_map(row * rows + r + 1); ++k) {
         const int place = place_[local.graph.entries(k)];
-        values_[entry(block_at[place / cols], r, place % cols)] = static_cast<float>(local.values(k));
+        values_[entry(block_at_[place / cols], r, place % cols)] = static_cast<float>(local.values(k));
       }
     }
   }

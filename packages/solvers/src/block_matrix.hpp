@@ -25,8 +25,8 @@ class BlockMatrix {
   /// the other. Collective.
   explicit BlockMatrix(const Matrix& matrix);
 
-  /// Takes the values of the same matrix anew. Local.
-  void read_values(const Matrix& matrix);
+  /// Takes the values of the same matrix anew in some rows of blocks. Local.
+  void read_values(const Matrix& matrix, const std::vector<int>& block_rows);
 
   int n_rows() const { return static_cast<int>(first_.size()) - 1; }
   std::size_t first(int row) const { return first_[row]; }
@@ -67,6 +67,7 @@ class BlockMatrix {
   std::vector<int> columns_;
   std::vector<int> place_;  ///< of the matrix's local columns in a vector
   std::vector<float, Eigen::aligned_allocator<float>> values_;
+  std::vector<std::size_t> block_at_;  ///< by block column, in the row that is being read
 
   std::size_t entry(std::size_t block, int r, int c) const {
     const int group = c / side_by_side, lane = c % side_by_side * rows + r;

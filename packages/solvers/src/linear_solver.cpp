@@ -4,6 +4,7 @@
 #include <BelosLinearProblem.hpp>
 #include <BelosTpetraAdapter.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "perimorph/base/errors.hpp"
@@ -51,6 +52,14 @@ void LinearSolver::forget() {
   factorization_.reset();
   condition_ = Condition::missing;
   cycle_ = Cycle::fast;
+}
+
+void LinearSolver::note_change(const std::vector<int>& nodes) {
+  if (condition_ == Condition::good) {
+    condition_ = Condition::changed;
+    changed_nodes_.clear();
+  }
+  if (condition_ == Condition::changed) changed_nodes_.insert(changed_nodes_.end(), nodes.begin(), nodes.end());
 }
 
 int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solution, double target) {
@@ -108,7 +117,9 @@ void LinearSolver::prepare() {
   if (condition_ == Condition::good) return;
   const auto timer = profile_.measure(base::Phase::preconditioner);
   if (condition_ == Condition::changed) {
-    if (multigrid_) multigrid_->refresh_finest();
+    std::sort(changed_nodes_.begin(), changed_nodes_.end());
+    changed_nodes_.erase(std::unique(changed_nodes_.begin(), changed_nodes_.end()), changed_nodes_.end());
+    if (multigrid_) multigrid_->refresh_finest(changed_nodes_);
     condition_ = Condition::good;
     return;
   }

@@ -133,8 +133,8 @@ void Multigrid::refresh() {
   make_operator();
 }
 
-void Multigrid::refresh_finest() {
-  if (has_own_cycle_) own_cycle_->refresh_finest();
+void Multigrid::refresh_finest(const std::vector<int>& nodes) {
+  if (has_own_cycle_) own_cycle_->refresh_finest(nodes);
 }
 
 void Multigrid::make_operator() {

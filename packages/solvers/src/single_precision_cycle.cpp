@@ -47,15 +47,14 @@ class Smoother {
     // A piece that floats has no stiffness but its anchors, and in single precision no forces but rounding errors.
     smallest_ = 1e-5 * largest;
     neglected_.resize(diagonal_.size());
-    inverted_.assign(diagonal_.size(), Block<size>::Zero());
-    inverse_.assign(diagonal_.size(), Block<size>::Zero());
-    invert_diagonal();
+    inverse_.resize(diagonal_.size());
+    for (int row = 0; row < n_rows(); ++row) invert_diagonal(row);
   }
 
-  /// Takes the matrix's values anew.
-  void refresh(const Matrix& matrix) {
-    matrix_.read_values(matrix);
-    invert_diagonal();
+  /// Takes the matrix's values anew in some rows.
+  void refresh(const Matrix& matrix, const std::vector<int>& rows) {
+    matrix_.read_values(matrix, rows);
+    for (const int row : rows) invert_diagonal(row);
   }
 
   int n_rows() const { return matrix_.n_rows(); }
@@ -100,21 +99,17 @@ class Smoother {
   BlockMatrix<size, size> matrix_;
   std::vector<std::size_t> diagonal_;
   std::vector<BlockVector<size>> neglected_;
-  std::vector<Block<size>> inverted_, inverse_;  ///< of the diagonal and what is neglected
+  std::vector<Block<size>> inverse_;  ///< of the diagonal and what is neglected
   double smallest_;                              ///< eigenvalue that counts
 
-  void invert_diagonal() {
-    for (int row = 0; row < n_rows(); ++row) {
-      neglected_[row].setZero();
-      for (auto b = diagonal_[row] + 1; b < matrix_.end(row); ++b) {
-        if (matrix_.column(b) >= n_rows()) neglected_[row] += 0.5f * matrix_.block(b).cwiseAbs().rowwise().sum();
-      }
-      Block<size> block = matrix_.block(diagonal_[row]);
-      block.diagonal() += neglected_[row];
-      if (block == inverted_[row]) continue;
-      inverted_[row] = block;
-      inverse_[row] = inverse<size>(block, smallest_);
+  void invert_diagonal(int row) {
+    neglected_[row].setZero();
+    for (auto b = diagonal_[row] + 1; b < matrix_.end(row); ++b) {
+      if (matrix_.column(b) >= n_rows()) neglected_[row] += 0.5f * matrix_.block(b).cwiseAbs().rowwise().sum();
     }
+    Block<size> block = matrix_.block(diagonal_[row]);
+    block.diagonal() += neglected_[row];
+    inverse_[row] = inverse<size>(block, smallest_);
   }
 
   void relax(int row, Values& b, Values& x) const {
@@ -154,7 +149,7 @@ class Level {
     below_ = std::make_unique<Level<coarse, coarse>>(levels + 1, n_levels - 1);
   }
 
-  void refresh(const Matrix& matrix) { smoother_.refresh(matrix); }
+  void refresh(const Matrix& matrix, const std::vector<int>& rows) { smoother_.refresh(matrix, rows); }
 
   Values& right_hand_side() { return b_; }
   const Values& solution() const { return x_; }
@@ -217,7 +212,7 @@ class WCycle : public SinglePrecisionCycle {
   Teuchos::RCP<const Tpetra::Map<>> getDomainMap() const override { return matrix_->getRowMap(); }
   Teuchos::RCP<const Tpetra::Map<>> getRangeMap() const override { return matrix_->getRowMap(); }
 
-  void refresh_finest() override { finest_.refresh(*matrix_); }
+  void refresh_finest(const std::vector<int>& block_rows) override { finest_.refresh(*matrix_, block_rows); }
 
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, double alpha, double beta) const override {
     const auto input = x.getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -22,8 +22,9 @@ struct CycleLevel {
 /// l1-Gauss-Seidel].
 class SinglePrecisionCycle : public Operator {
  public:
-  /// Takes the finest matrix's values anew; the coarse ones stay, too stiff where it has become softer. Local.
-  virtual void refresh_finest() = 0;
+  /// Takes the finest matrix's values anew in some rows of blocks; the coarse ones stay, too stiff where it has become
+  /// softer. Local.
+  virtual void refresh_finest(const std::vector<int>& block_rows) = 0;
 };
 
 /// @param levels from fine to coarse; blocks have dim unknowns on the finest, dim (dim + 1) / 2 on all others.

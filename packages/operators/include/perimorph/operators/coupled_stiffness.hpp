@@ -38,8 +38,9 @@ class CoupledStiffness {
   Teuchos::RCP<Tpetra::Operator<double>> linear_operator() const;
   std::size_t bytes() const;  ///< of memory: the matrix's values, columns and row starts
 
-  /// Takes the springs of newly broken bonds out of the values, in place. Local.
-  void subtract(const std::vector<std::size_t>& broken);
+  /// Takes the springs of newly broken bonds out of the values, in place. Returns the owned nodes whose rows may have
+  /// changed, some more than once. Local.
+  std::vector<int> subtract(const std::vector<std::size_t>& broken);
 
  private:
   CoupledModel<dim> model_;

@@ -28,10 +28,8 @@ class LinearSolver {
   void set_operator(const Teuchos::RCP<Operator>& linear_operator, const Teuchos::RCP<Matrix>& preconditioner_matrix,
                     const NearNullSpace& near_null_space, const Teuchos::RCP<const Operator>& basis = Teuchos::null);
 
-  /// The preconditioner's matrix has new values. Local.
-  void note_change() {
-    if (condition_ == Condition::good) condition_ = Condition::changed;
-  }
+  /// The preconditioner's matrix has new values in the rows of these owned nodes. Local.
+  void note_change(const std::vector<int>& nodes);
 
   /// The preconditioner is rebuilt before the next solve: nothing that comes depends on solves before. Local.
   void forget();
@@ -55,6 +53,7 @@ class LinearSolver {
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
   Condition condition_ = Condition::missing;
+  std::vector<int> changed_nodes_;  ///< while it is Condition::changed; some more than once
   bool refreshed_ = false;  ///< since the last rebuild
   Cycle cycle_ = Cycle::fast;
 

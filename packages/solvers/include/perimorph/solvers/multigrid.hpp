@@ -40,8 +40,8 @@ class Multigrid {
   /// New values in the same matrix: keeps aggregates and prolongators ("RP" reuse), renews the rest. Collective.
   void refresh();
 
-  /// New values in the same matrix, for our own cycle's finest level only. Local.
-  void refresh_finest();
+  /// New values in the rows of these owned nodes, for our own cycle's finest level only. Local.
+  void refresh_finest(const std::vector<int>& nodes);
 
   const Teuchos::RCP<Operator>& apply_inverse() const { return operator_; }
 
