@@ -15,8 +15,8 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
 }  // namespace
 
 template <int dim>
-bool run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints,
-                       const LoopLimits& limits, LoopPosition& position) {
+bool run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints, const LoopLimits& limits,
+                       LoopPosition& position) {
   for (int increment = checkpoints.increment() + 1; increment <= limits.increments; ++increment) {
     if (position.damage_iterations == 0) body.apply_load(increment);
     do {

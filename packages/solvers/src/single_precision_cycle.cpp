@@ -100,7 +100,7 @@ class Smoother {
   std::vector<std::size_t> diagonal_;
   std::vector<BlockVector<size>> neglected_;
   std::vector<Block<size>> inverse_;  ///< of the diagonal and what is neglected
-  double smallest_;                              ///< eigenvalue that counts
+  double smallest_;                   ///< eigenvalue that counts
 
   void invert_diagonal(int row) {
     neglected_[row].setZero();

@@ -54,7 +54,7 @@ class LinearSolver {
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
   Condition condition_ = Condition::missing;
   std::vector<int> changed_nodes_;  ///< while it is Condition::changed; some more than once
-  bool refreshed_ = false;  ///< since the last rebuild
+  bool refreshed_ = false;          ///< since the last rebuild
   Cycle cycle_ = Cycle::fast;
 
   bool is_factorized() const;
