@@ -307,10 +307,10 @@ void Checkpoints<dim>::write() {
 
 /// A body on rank 0. Elements by global id, so that the ranks leave no trace.
 template <int dim>
-io::Checkpoint Checkpoints<dim>::gather(const BodyState<dim>& state, const std::vector<GlobalId>& own_ids) const {
+io::Checkpoint Checkpoints<dim>::gather(const BodyState<dim>& state, const std::vector<GlobalId>& elements) const {
   constexpr auto stride = static_cast<std::size_t>(BodyState<dim>::values_per_element);
   const auto broken = base::gather_on_root(*comm_, state.broken);
-  const auto ids = base::gather_on_root(*comm_, own_ids);
+  const auto ids = base::gather_on_root(*comm_, elements);
   const auto values = base::gather_on_root(*comm_, state.displacement);
   io::Checkpoint checkpoint;
   if (comm_->getRank() != 0) return checkpoint;

@@ -75,7 +75,7 @@ class Checkpoints {
   BodyState<dim> body_;
   std::vector<base::GlobalId> own_ids_;  ///< of elements, in the order of body_.displacement
   std::optional<ResultsState> results_;
-  std::vector<double> costs_then_;
+  std::vector<double> costs_then_;  ///< costs_ when it was accepted
 
   io::Checkpoint start_;  ///< of the next body, on rank 0: loaded, or where the last body has come to
   bool has_start_ = false;
@@ -86,7 +86,7 @@ class Checkpoints {
 
   io::Checkpoint read_newest() const;
   BodyState<dim> body_state_in(const io::Checkpoint& checkpoint, const mesh::Mesh<dim>& mesh) const;
-  io::Checkpoint gather(const BodyState<dim>& state, const std::vector<base::GlobalId>& own_ids) const;
+  io::Checkpoint gather(const BodyState<dim>& state, const std::vector<base::GlobalId>& elements) const;
   bool is_due(int increment);
 };
 
