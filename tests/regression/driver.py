@@ -111,7 +111,7 @@ class Driver(unittest.TestCase):
 
     def perimorph(self, *arguments, ranks=1):
         command = [MPIEXEC, "-n", str(ranks), PERIMORPH, *map(str, arguments)]
-        return subprocess.run(command, capture_output=True, text=True, timeout=60)
+        return subprocess.run(command, capture_output=True, text=True, timeout=250)
 
     def run_case(self, *options, ranks=1):
         return self.perimorph("run", self.case, "--output", self.output, *options, ranks=ranks)
