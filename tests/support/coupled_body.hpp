@@ -5,6 +5,7 @@
 #include <Teuchos_DefaultComm.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <set>
 
 #include "perimorph/operators/coupled_stiffness.hpp"
 #include "perimorph/operators/fields.hpp"
@@ -24,6 +25,8 @@ struct Setup {
 };
 
 struct CoupledBody {
+  using Matrix = Tpetra::CrsMatrix<double>;
+
   Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
   mesh::Mesh<2> mesh;
   base::Stiffness<2> e0;
@@ -88,6 +91,32 @@ struct CoupledBody {
       coordinates.push_back(mesh.coordinates[dofs->reference_node(n)]);
     }
     return coordinates;
+  }
+
+  /// Breaks the bonds between pairs of elements the sum of whose ids is a multiple of n. Returns them.
+  std::vector<std::size_t> break_each(int n) {
+    std::vector<std::size_t> broken;
+    for (int p = 0; p < bonds.n_pairs(); ++p) {
+      const auto [first, second] = bonds.pair(p);
+      if (first == second || (mesh.element_ids[first] + mesh.element_ids[second]) % n != 0) continue;
+      for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
+        bonds.set_broken(p, b);
+        broken.push_back(b);
+      }
+    }
+    return broken;
+  }
+
+  /// The owned nodes whose rows another matrix of the same pattern has other values in.
+  static std::set<int> nodes_that_differ(const Matrix& one, const Matrix& other) {
+    const auto a = one.getLocalMatrixHost(), b = other.getLocalMatrixHost();
+    std::set<int> nodes;
+    for (int row = 0; row < a.numRows(); ++row) {
+      for (auto i = a.graph.row_map(row); i < a.graph.row_map(row + 1); ++i) {
+        if (a.values(i) != b.values(i)) nodes.insert(row / 2);
+      }
+    }
+    return nodes;
   }
 
   /// The matrix, dense; on one rank.

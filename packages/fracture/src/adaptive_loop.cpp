@@ -21,7 +21,7 @@ bool run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>&
     if (position.damage_iterations == 0) body.apply_load(increment);
     do {
       body.update_topology();
-      if (checkpoints.is_to_be_parted_anew(body)) return false;
+      if (checkpoints.parts_anew(body)) return false;
       check_limit(position.growths++, limits.max_zone_growths, increment, "growths of the zone",
                   "Maximum Zone Growths");
       const auto breaks = [&](Accuracy accuracy) {

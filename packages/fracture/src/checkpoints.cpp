@@ -263,7 +263,7 @@ void Checkpoints<dim>::accept(int increment, Body<dim>& body, const Results<dim>
 /// A new partition is worth its price only if the zone has grown since the last one: what was uneven then cannot be
 /// mended.
 template <int dim>
-bool Checkpoints<dim>::is_to_be_parted_anew(const Body<dim>& body) {
+bool Checkpoints<dim>::parts_anew(const Body<dim>& body) {
   constexpr double growth = 1.2;
   if (comm_->getSize() == 1 || body.counts().topologies == weighed_topology_) return false;
   weighed_topology_ = body.counts().topologies;

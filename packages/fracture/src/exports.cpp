@@ -41,8 +41,6 @@ Texts path_columns() {
   return columns;
 }
 
-constexpr const char* path_name = "crack_path.csv";
-
 /// The pairs of elements in a table of open sides.
 std::set<std::pair<GlobalId, GlobalId>> sides_in(const std::string& file) {
   std::set<std::pair<GlobalId, GlobalId>> sides;
@@ -165,16 +163,17 @@ Exports<dim>::Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Me
 template <int dim>
 void Exports<dim>::open_tables(int increment) {
   using Rows = io::History::Rows;
+  const auto path_of = [&](const char* name) { return (std::filesystem::path(folder_) / name).string(); };
   const auto table = [&](const char* name, const Texts& columns, Rows rows = Rows::in_each_increment) {
-    const std::string file = (std::filesystem::path(folder_) / name).string();
+    const std::string file = path_of(name);
     return std::make_unique<io::History>(increment > 0 ? io::History::resume(file, columns, increment, rows)
                                                        : io::History(file, columns));
   };
   if (!probes_.places().empty()) probe_table_ = table("probes.csv", probe_columns<dim>());
   if (records_crack_) {
     crack_table_ = table("crack.csv", crack_columns<dim>());
-    path_table_ = table(path_name, path_columns<dim>(), Rows::in_some);
-    known_sides_ = sides_in((std::filesystem::path(folder_) / path_name).string());
+    path_table_ = table("crack_path.csv", path_columns<dim>(), Rows::in_some);
+    known_sides_ = sides_in(path_of("crack_path.csv"));
   }
   remove_bonds_after(folder_, increment);
 }

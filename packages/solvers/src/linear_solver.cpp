@@ -6,6 +6,7 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "perimorph/base/errors.hpp"
 
@@ -55,11 +56,7 @@ void LinearSolver::forget() {
 }
 
 void LinearSolver::note_change(const std::vector<int>& nodes) {
-  if (condition_ == Condition::good) {
-    condition_ = Condition::changed;
-    changed_nodes_.clear();
-  }
-  if (condition_ == Condition::changed) changed_nodes_.insert(changed_nodes_.end(), nodes.begin(), nodes.end());
+  changed_nodes_.insert(changed_nodes_.end(), nodes.begin(), nodes.end());
 }
 
 int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solution, double target) {
@@ -114,13 +111,12 @@ void LinearSolver::build() {
 }
 
 void LinearSolver::prepare() {
-  if (condition_ == Condition::good) return;
   const auto timer = profile_.measure(base::Phase::preconditioner);
-  if (condition_ == Condition::changed) {
-    std::sort(changed_nodes_.begin(), changed_nodes_.end());
-    changed_nodes_.erase(std::unique(changed_nodes_.begin(), changed_nodes_.end()), changed_nodes_.end());
-    if (multigrid_) multigrid_->refresh_finest(changed_nodes_);
-    condition_ = Condition::good;
+  auto changed = std::exchange(changed_nodes_, {});
+  if (condition_ == Condition::good) {
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    if (multigrid_) multigrid_->refresh_finest(changed);
     return;
   }
   const bool refresh = condition_ == Condition::aged && !refreshed_ && multigrid_;

@@ -101,19 +101,21 @@ TEST_P(CoupledStiffness, IsSymmetricAndPositiveWithThreeRigidModesAtZeroEnergy) 
 
 TEST_P(CoupledStiffness, WithoutBrokenBondsEqualsTheOneAssembledAfterBreaking) {
   const std::vector<double> zero(2 * body.dofs->n_nodes(), 0.);
-  std::vector<std::size_t> broken;
-  for (int p = 0; p < body.bonds.n_pairs(); p += 3) {
-    if (body.bonds.pair(p).first == body.bonds.pair(p).second) continue;
-    for (auto b = body.bonds.first_bond(p); b < body.bonds.first_bond(p + 1); b += 2) {
-      body.bonds.set_broken(p, b);
-      broken.push_back(b);
-    }
-  }
+  const auto broken = body.break_each(3);
   ASSERT_GT(broken.size(), 100u);
   body.stiffness->subtract(broken);
   const Eigen::MatrixXd updated = body.dense();
   body.stiffness = std::make_unique<operators::CoupledStiffness<2>>(body.model(), body.supports());
   EXPECT_LT((updated - body.dense()).cwiseAbs().maxCoeff(), 1e-13 * updated.cwiseAbs().maxCoeff());
+}
+
+TEST_P(CoupledStiffness, NamesAllNodesWhoseRowsBrokenBondsChange) {
+  const CoupledBody::Matrix before(*body.stiffness->matrix(), Teuchos::Copy);
+  const auto named = body.stiffness->subtract(body.break_each(71));
+  const auto changed = CoupledBody::nodes_that_differ(before, *body.stiffness->matrix());
+  EXPECT_GT(changed.size(), 0u);
+  EXPECT_LT(changed.size(), 0.7 * body.dofs->n_nodes());
+  EXPECT_EQ(changed, std::set<int>(named.begin(), named.end()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, CoupledStiffness,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/coupled_body.hpp"
@@ -62,18 +63,20 @@ TEST_P(PointBasis, GivesTheSameOperatorWithFewerEntries) {
 }
 
 TEST_P(PointBasis, GivesTheSameOperatorAfterBondsBreak) {
-  std::vector<std::size_t> broken;
-  for (int p = 0; p < body.bonds.n_pairs(); ++p) {
-    const auto [first, second] = body.bonds.pair(p);
-    if ((body.mesh.element_ids[first] + body.mesh.element_ids[second]) % 3 != 0 || first == second) continue;
-    for (auto b = body.bonds.first_bond(p); b < body.bonds.first_bond(p + 1); ++b) {
-      body.bonds.set_broken(p, b);
-      broken.push_back(b);
-    }
-  }
+  const auto broken = body.break_each(3);
   body.stiffness->subtract(broken);
   by_points.subtract(broken);
   expect_the_same_operator();
+}
+
+TEST_P(PointBasis, NamesAllNodesWhoseRowsBrokenBondsChange) {
+  const CoupledBody::Matrix before(*by_points.matrix(), Teuchos::Copy);
+  const auto result = by_points.subtract(body.break_each(71));
+  const std::set<int> named(result.begin(), result.end());
+  const auto changed = CoupledBody::nodes_that_differ(before, *by_points.matrix());
+  EXPECT_LT(named.size(), 0.7 * body.dofs->n_owned_nodes());
+  EXPECT_TRUE(std::includes(named.begin(), named.end(), changed.begin(), changed.end()));
+  EXPECT_GT(base::sum(*body.comm, static_cast<base::GlobalId>(changed.size())), 0);
 }
 
 TEST_P(PointBasis, TakesAnAffineFieldAtItsCoordinatesToTheNodes) {

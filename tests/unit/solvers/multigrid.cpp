@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "support/coupled_body.hpp"
 
@@ -95,6 +96,31 @@ TEST_F(Multigrid, FollowsNewValuesWhenRefreshed) {
   auto after = times(*multigrid.apply_inverse(), x);
   after.update(-1., before, 4.);
   EXPECT_LT(std::sqrt(dot(after, after)), 1e-4 * std::sqrt(dot(before, before)));
+}
+
+TEST_F(Multigrid, FollowsNewValuesOfTheFinestLevelWhereTheyAre) {
+  auto one = make(), other = make();
+  const auto x = wave(0.4);
+  const auto before = times(*one.apply_inverse(), x);
+  const auto local = matrix->getLocalMatrixHost();
+  std::vector<int> all(body.dofs->n_owned_nodes()), changed;
+  std::iota(all.begin(), all.end(), 0);
+  for (int node = 0; node < body.dofs->n_owned_nodes(); node += 7) {
+    changed.push_back(node);
+    for (int row : {2 * node, 2 * node + 1}) {
+      for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) local.values(k) *= 1.1;
+    }
+  }
+
+  one.refresh_finest(changed);
+  other.refresh_finest(all);
+
+  auto difference = times(*one.apply_inverse(), x);
+  difference.update(-1., times(*other.apply_inverse(), x), 1.);
+  EXPECT_EQ(dot(difference, difference), 0.);
+  difference = times(*one.apply_inverse(), x);
+  difference.update(-1., before, 1.);
+  EXPECT_GT(dot(difference, difference), 1e-6 * dot(before, before));
 }
 
 /// Values that were zero, as those between x and y are in many a regular mesh, and no longer are.

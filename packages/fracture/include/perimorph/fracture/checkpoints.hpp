@@ -38,7 +38,7 @@ class Checkpoints {
   int increment() const { return increment_; }
   const std::optional<ResultsState>& results() const { return results_; }
 
-  /// The body goes on from what was loaded, or from where is_to_be_parted_anew() found it; checkpoints after the last
+  /// The body goes on from what was loaded, or from where parts_anew() left the last one; checkpoints after the last
   /// accepted increment are removed. Collective.
   void restore(Body<dim>& body);
 
@@ -47,9 +47,10 @@ class Checkpoints {
   /// @throws ComputationError if it is due and cannot be written.
   void accept(int increment, Body<dim>& body, const Results<dim>& results);
 
-  /// Whether the ranks share the work so unevenly that another partition of the mesh is worth its price. Then another
-  /// body is to go on from here. To be asked when the topology has just been updated. Collective.
-  bool is_to_be_parted_anew(const Body<dim>& body);
+  /// If the ranks share the work so unevenly that another partition of the mesh is worth its price: remembers where the
+  /// body stands, for another one to go on from there, and returns true. To be called when the topology has just been
+  /// updated. Collective.
+  bool parts_anew(const Body<dim>& body);
 
   /// @throws ComputationError if a signal has asked the run to stop. Collective.
   void heed_signals();

@@ -41,7 +41,7 @@ class LinearSolver {
   int solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 
  private:
-  enum class Condition { missing, aged, changed, good };
+  enum class Condition { missing, aged, good };
   using Cycle = Multigrid::Cycle;
 
   SolverParameters parameters_;
@@ -53,7 +53,7 @@ class LinearSolver {
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
   Condition condition_ = Condition::missing;
-  std::vector<int> changed_nodes_;  ///< while it is Condition::changed; some more than once
+  std::vector<int> changed_nodes_;  ///< since the last solve; some more than once
   bool refreshed_ = false;          ///< since the last rebuild
   Cycle cycle_ = Cycle::fast;
 
