@@ -9,7 +9,7 @@ import numpy as np
 from cases import run, write_case
 from fields import Displacement
 from messages import fail
-from precision_runs import E, NU, prescribed, write_mesh, write_rows
+from precision_runs import material, plane_constants, prescribed, write_body, write_rows
 
 HALF, RADIUS = 75.0, 15.0
 STRESS = 300.0
@@ -35,7 +35,8 @@ Mesh.Algorithm = 6;
 Mesh.RecombinationAlgorithm = 3;
 """
 
-CIRCLE = {"Center": [0, 0], "Inner Radius": 30.0, "Outer Radius": 60.0}
+RADII = {"Inner Radius": 30.0, "Outer Radius": 60.0}
+CIRCLE = {**RADII, "Center": [0, 0]}
 EVERYTHING = {"Shape": "Everything"}
 # name: seed, which elements are discontinuous, what becomes of E(x); colour
 VARIANTS = {
@@ -49,17 +50,17 @@ VARIANTS = {
 }
 
 
-def kirsch(points):
-    """Displacement of an infinite plate with a hole under tension along x, plane stress."""
-    mu, k = E / (2 * (1 + NU)), (3 - NU) / (1 + NU)
-    r, t = np.hypot(*points.T) / RADIUS, np.arctan2(points[:, 1], points[:, 0])
+def kirsch(points, layers):
+    """Displacement of an infinite body with a round hole under tension along x."""
+    mu, k, _ = plane_constants(layers)
+    r, t = np.hypot(points[:, 0], points[:, 1]) / RADIUS, np.arctan2(points[:, 1], points[:, 0])
     x = r * (k + 1) * np.cos(t) + 2 / r * ((1 + k) * np.cos(t) + np.cos(3 * t)) - 2 / r**3 * np.cos(3 * t)
     y = r * (k - 3) * np.sin(t) + 2 / r * ((1 - k) * np.sin(t) + np.sin(3 * t)) - 2 / r**3 * np.sin(3 * t)
     return STRESS * RADIUS / (8 * mu) * np.column_stack([x, y])
 
 
-def plate(stem, size):
-    """Meshes the plate; returns the mean edge, the boundary's nodes and their positions."""
+def plate(stem, size, layers):
+    """Meshes the body; returns the mean edge in the plane, the boundary's nodes and their positions."""
     with open(stem + ".geo", "w") as out:
         out.write(GEOMETRY.format(size=size, half=HALF, radius=RADIUS))
     made = subprocess.run(["gmsh", "-2", "-v", "0", "-format", "msh22", stem + ".geo", "-o", stem + ".msh"])
@@ -75,50 +76,55 @@ def plate(stem, size):
     used, quads = np.unique(quads, return_inverse=True)  # not the hole's centre
     nodes, quads = all_nodes[used], quads.reshape(-1, 4)
     boundary = np.flatnonzero(np.abs(nodes).max(axis=1) > HALF * (1 - 1e-9))
-    write_mesh(stem + ".msh", nodes, quads, boundary)
     corners = nodes[quads]
-    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(), boundary, nodes[boundary]
+    dx = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean()
+    write_body(stem + ".msh", nodes, quads, boundary, layers, dx)
+    return dx, boundary, nodes[boundary]
 
 
-def case_of(mesh, dx, boundary, positions, variant):
+def case_of(mesh, dx, boundary, positions, layers, variant):
     seed, discontinuous, stiffness, _ = variant
     morphing = {"Discontinuous Elements": discontinuous, "Stiffness in Peridynamic Zone": stiffness}
+    if seed == CIRCLE and layers:
+        seed = {**RADII, "Shape": "Cylinder", "Start": [0, 0, -float(dx)], "End": [0, 0, float((layers + 1) * dx)]}
     if seed is not None:
         morphing["Seeds"] = {"zone": seed}
     return {
-        "Title": "Plate with a hole, the exact displacement around it",
+        "Title": "Body with a hole, the exact displacement around it",
+        "Dimension": 3 if layers else 2,
         "Mesh": {"File": os.path.abspath(mesh)},
-        "Material": {"Young's Modulus": E, "Poisson's Ratio": NU, "Elastic Model": "Plane Stress"},
+        "Material": material(layers),
         "Peridynamics": {"Horizon": 3 * float(dx), "Characteristic Length": 0.2 * float(dx)},
         "Morphing": morphing,
-        "Boundary Conditions": {"Displacements": prescribed(boundary, kirsch(positions))},
+        "Boundary Conditions": {"Displacements": prescribed(boundary, kirsch(positions, layers), layers)},
         "Loading": {"Increments": 1},
         "Output": {"Reactions": "{n%d}" % boundary[0]},
     }
 
 
-def errors(output):
-    """Largest over all nodes, for each component over its largest displacement."""
+def errors(output, layers):
+    """Largest over all nodes, for each component in the plane over its largest displacement."""
     result = Displacement(output)
-    exact = kirsch(result.coordinates)
-    return np.abs(result.values - exact).max(axis=0) / np.abs(exact).max(axis=0)
+    exact = kirsch(result.coordinates, layers)
+    return np.abs(result.values[:, :2] - exact).max(axis=0) / np.abs(exact).max(axis=0)
 
 
-def measure(sizes, repeat, folder):
+def measure(layers, sizes, repeat, folder):
     rows = []
     for size in sorted(sizes, reverse=True):
         stem = os.path.join(folder, f"plate-{size:g}")
-        dx, boundary, positions = plate(stem, size * 1.08)  # recombined quadrilaterals come out smaller than asked for
+        dx, boundary, positions = plate(stem, size * 1.08, layers)  # recombined quadrilaterals come out smaller than asked for
         for name, variant in VARIANTS.items():
-            write_case(stem + ".xml", case_of(stem + ".msh", dx, boundary, positions, variant))
+            write_case(stem + ".xml", case_of(stem + ".msh", dx, boundary, positions, layers, variant))
             fastest = min((run(stem + ".xml", stem) for _ in range(repeat)), key=lambda one: one.processor)
-            error = errors(stem)
+            error = errors(stem, layers)
             rows.append({"variant": name, "dx": f"{dx:.4g}", "unknowns": fastest.history[-1]["unknowns"],
                          "seconds": f"{fastest.processor:.3g}", "memory_mb": f"{fastest.memory:.0f}", "error_x": f"{error[0]:.3e}",
                          "error_y": f"{error[1]:.3e}"})
             print("  ".join(f"{key} {value}" for key, value in rows[-1].items()), flush=True)
-    write_rows(os.path.join(folder, "elastic.csv"), rows)
-    draw(rows, os.path.join(folder, "elastic.png"))
+    result = os.path.join(folder, "elastic_3d" if layers else "elastic")
+    write_rows(result + ".csv", rows)
+    draw(rows, result + ".png")
 
 
 def draw(rows, file):

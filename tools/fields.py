@@ -14,8 +14,8 @@ class Displacement:
     def __init__(self, directory):
         file = ExodusFile(series_of(directory)[0])
         blocks = file.connectivity()
-        if any(block.shape[1] != 4 for block in blocks):
-            fail(f"{directory}: only meshes of quadrilaterals can be compared")
+        if len({block.shape[1] for block in blocks}) != 1:
+            fail(f"{directory}: only meshes with elements of one kind can be compared")
         self.corners = np.concatenate(blocks)[np.argsort(file.element_numbers())]
         self.coordinates = np.column_stack(file.coordinates())
         self.values = np.column_stack(file.displacement(-1))

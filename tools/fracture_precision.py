@@ -7,17 +7,19 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from cases import make_mesh, run, write_case
-from precision_runs import E, NU, prescribed, write_mesh, write_rows
+from messages import fail
+from precision_runs import material, plane_constants, prescribed, write_body, write_rows
 
 G_C = 0.03  # small: strains stay below 1 %
 STEP = 0.01  # of K over sqrt(E G_c), an increment
 GROWTH = 2.0  # of the crack, in elements
-FINE, GRADING = 18, 1.3  # elements of 1 around the tip, then growing ones
+FINE, FINE_IN_SLAB, GRADING = 18, 13, 1.3  # elements of 1 around the tip, then growing ones
 
 DROPPED, KEPT = "Dropped", "Kept"
 ON_DAMAGE, WHOLE_ZONE = "On Damage", "Whole Zone"
 DEFAULT = {"l": 1 / 3, "horizon": 4.0, "discontinuous": ON_DAMAGE, "stiffness": DROPPED, "zone": 2.0, "mesh": "squares",
-           "direction": 0, "calibration": "Mesh-Consistent", "half_width": 100.0, "points": 2, "fraction": 1.0}
+           "direction": 0, "calibration": "Mesh-Consistent", "half_width": 100.0, "points": 2, "fraction": 1.0,
+           "layers": 0}  # 0: a plate in plane stress, else a slab in plane strain
 POLICIES = {(ON_DAMAGE, DROPPED): "#8a5bb0", (ON_DAMAGE, KEPT): "#1f5fa8", (WHOLE_ZONE, DROPPED): "#c8442c",
             (WHOLE_ZONE, KEPT): "#c98a1b"}
 LENGTHS = (0.2, 0.25, 1 / 3, 0.5)
@@ -28,7 +30,15 @@ def horizon_for(length):
     return 3.0 if length < 0.3 else 4.0
 
 
-STUDIES = {
+
+
+def slab(length, horizon, **changes):
+    """A setting in three dimensions; the zone as small as may be, two elements wider than a horizon."""
+    return {"layers": 8, "calibration": "Analytic", "half_width": 50.0, "l": length, "horizon": horizon,
+            "zone": 1.0 + 2.0 / horizon, **changes}
+
+
+STUDIES = {2: {
     "resistance": [{"l": l, "horizon": horizon_for(l), "discontinuous": discontinuous, "stiffness": stiffness,
                     "calibration": "Analytic"} for discontinuous, stiffness in POLICIES for l in LENGTHS],
     "mesh": [{"l": l, "horizon": horizon_for(l), "mesh": "irregular"} for l in LENGTHS]
@@ -39,16 +49,21 @@ STUDIES = {
     "boundary": [{"half_width": half_width} for half_width in (25.0, 50.0, 100.0, 400.0)],
     "horizon": [{"horizon": 3.0}],
     "zone": [{"zone": 1.5}],
-}
+}, 3: {
+    "resistance": [slab(l, horizon_for(l), discontinuous=discontinuous, stiffness=stiffness)
+                   for discontinuous, stiffness in POLICIES for l in LENGTHS[:3]],
+    "thickness": [slab(0.2, 2.0, layers=layers) for layers in (2, 4, 8)],
+    "points": [slab(0.2, 2.0, layers=4, points=3)],
+}}
 
 
-def mode_one(points, direction):
-    """Displacement of an infinite body around the tip of a crack at the origin, plane stress, K = 1."""
+def critical_displacement(points, direction, layers):
+    """Displacement of an infinite body around the tip of a crack at the origin, K = sqrt(E' G_c)."""
+    mu, k, modulus = plane_constants(layers)
     turn = np.array([[np.cos(direction), -np.sin(direction)], [np.sin(direction), np.cos(direction)]])
     x, y = (points @ turn).T
     r, t = np.hypot(x, y), np.arctan2(y, x)
-    mu, k = E / (2 * (1 + NU)), (3 - NU) / (1 + NU)
-    size = np.sqrt(r / (2 * np.pi)) / (2 * mu)
+    size = np.sqrt(modulus * G_C * r / (2 * np.pi)) / (2 * mu)
     return np.column_stack([size * np.cos(t / 2) * (k - 1 + 2 * np.sin(t / 2) ** 2),
                             size * np.sin(t / 2) * (k + 1 - 2 * np.cos(t / 2) ** 2)]) @ turn.T
 
@@ -64,9 +79,9 @@ def lattice(x):
     return nodes, np.column_stack([first, first + 1, first + n + 1, first + n])
 
 
-def squares(half_width, is_irregular=False):
+def squares(half_width, is_irregular=False, fine=FINE):
     """A square body, fine around the tip, the crack along a row of edges."""
-    half = list(np.arange(FINE + 1.0))
+    half = list(np.arange(fine + 1.0))
     step = GRADING
     while half[-1] < half_width:
         half.append(half[-1] + step)
@@ -74,7 +89,7 @@ def squares(half_width, is_irregular=False):
     nodes, quads = lattice(np.concatenate([-np.array(half[:0:-1]), half]))
     crack = np.flatnonzero((nodes[:, 1] == 0) & (nodes[:, 0] <= 0))
     if is_irregular:  # inner nodes are moved by up to a quarter of an element
-        moved = np.hypot(*nodes.T) < FINE - 1
+        moved = np.hypot(*nodes.T) < fine - 1
         moved[crack] = False
         nodes[moved] += np.random.RandomState(1).uniform(-0.25, 0.25, (np.count_nonzero(moved), 2))
     return nodes, quads, crack
@@ -150,7 +165,9 @@ def body_of(setting, folder):
         return disc(half_width, np.radians(setting["direction"]))
     if mesh.startswith("gmsh"):
         return gmshs_own(half_width, folder, mesh == "gmsh triangles")
-    return triangles(half_width) if mesh == "triangles" else squares(half_width, mesh == "irregular")
+    if mesh == "triangles":
+        return triangles(half_width)
+    return squares(half_width, mesh == "irregular", FINE_IN_SLAB if setting["layers"] else FINE)
 
 
 def outer_nodes(elements):
@@ -166,43 +183,52 @@ def case_of(folder, setting):
     direction = np.radians(setting["direction"])
     nodes, elements, crack = body_of(setting, folder)
     boundary = np.setdiff1d(outer_nodes(elements), crack[0])  # the crack's mouth is free
-    write_mesh(os.path.join(folder, "crack.msh"), nodes, elements, boundary)
-    horizon, radius = setting["horizon"], setting["zone"]
+    horizon, radius, layers = setting["horizon"], setting["zone"], setting["layers"]
+    displacements = STEP * critical_displacement(nodes[boundary], direction, layers)
+    write_body(os.path.join(folder, "crack.msh"), nodes, elements, boundary, layers)
+    tip, line = {"Center": [0, 0]}, {"Points": list(nodes[crack].ravel())}
+    if layers > 0:
+        mouth = nodes[crack[0]][0]
+        tip = {"Shape": "Cylinder", "Start": [0, 0, -1], "End": [0, 0, layers + 1]}
+        line = {"Shape": "Polygon", "Points": [mouth, 0, 0, 0, 0, 0, 0, 0, layers, mouth, 0, layers]}
     return {
         "Title": "A crack under the displacement of mode I on the outer boundary",
+        "Dimension": 3 if layers else 2,
         "Mesh": {"File": "crack.msh"},
-        "Material": {"Young's Modulus": E, "Poisson's Ratio": NU, "Elastic Model": "Plane Stress", "Fracture Energy": G_C,
-                     "Calibration": setting["calibration"]},
+        "Material": {**material(layers), "Fracture Energy": G_C, "Calibration": setting["calibration"]},
         "Peridynamics": {"Horizon": horizon, "Characteristic Length": setting["l"],
                          "Points per Direction": setting["points"]},
         "Morphing": {"Discontinuous Elements": setting["discontinuous"],
                      "Stiffness in Peridynamic Zone": setting["stiffness"],
                      "Growth Inner Radius": radius, "Growth Outer Radius": 2 * radius,
-                     "Seeds": {"tip": {"Center": [0, 0], "Inner Radius": radius * horizon,
-                                       "Outer Radius": 2 * radius * horizon}}},
-        "Pre-Cracks": {"crack": {"Points": list(nodes[crack].ravel())}},
-        "Boundary Conditions": {"Displacements": prescribed(
-            boundary, STEP * np.sqrt(E * G_C) * mode_one(nodes[boundary], direction))},
+                     "Seeds": {"tip": {**tip, "Inner Radius": radius * horizon, "Outer Radius": 2 * radius * horizon}}},
+        "Pre-Cracks": {"crack": line},
+        "Boundary Conditions": {"Displacements": prescribed(boundary, displacements, layers)},
         "Loading": {"Increments": 250, "Breaking Fraction": setting["fraction"]},
         "Output": {"Every": 1000, "Reactions": "{n%d}" % boundary[0]},
     }
 
 
-def load_and_growth(row):
-    """K over sqrt(E G_c) as prescribed, and how far the crack has grown: the energy it took, over K^2 / E."""
+def energy(row, name, setting):
+    """By thickness, over G_c."""
+    return float(row[name]) / (G_C * max(1, setting["layers"]))
+
+
+def load_and_growth(row, setting):
+    """K over sqrt(E' G_c) as prescribed, and how far the crack has grown: the energy it took, over K^2 / E'."""
     load = STEP * float(row["load_factor"])
-    return load, (float(row["dissipated_energy"]) + float(row["jump_loss"])) / (G_C * load**2)
+    return load, (energy(row, "dissipated_energy", setting) + energy(row, "jump_loss", setting)) / load**2
 
 
-def has_grown(rows):
-    return bool(rows) and load_and_growth(rows[-1])[1] >= GROWTH
+def has_grown(rows, setting):
+    return bool(rows) and load_and_growth(rows[-1], setting)[1] >= GROWTH
 
 
 def measured(rows, setting):
-    """K over sqrt(E G_c): at the first broken bond, the mean while the crack grows, the largest; energies over G_c."""
+    """K over sqrt(E' G_c): at the first broken bond, the mean while the crack grows, the largest; energies over G_c."""
     loads, growths = [], [0.0]
     for row in rows:
-        load, growth = load_and_growth(row)
+        load, growth = load_and_growth(row, setting)
         # The boundary holds the displacement of a crack that has not grown, so that K falls by 1/2 of growth over half
         # width: the study "boundary" shows that this makes up for it, from a half width of 50 on.
         loads.append(load * (1 - 0.5 * growths[-1] / setting["half_width"]))
@@ -212,52 +238,59 @@ def measured(rows, setting):
     first = next(STEP * float(row["load_factor"]) for row in rows if int(row["broken_bonds"]) > 0)
     mean = np.dot(loads, np.diff(growths)) / growths[-1]
     return {"first": f"{first:.3f}", "load": f"{mean:.3f}", "largest": f"{max(loads):.3f}", "growth": f"{growths[-1]:.2f}",
-            "dissipated": f"{float(row['dissipated_energy']) / G_C:.3f}", "jump_loss": f"{float(row['jump_loss']) / G_C:.3f}"}
+            "dissipated": f"{energy(row, 'dissipated_energy', setting):.3f}", "jump_loss": f"{energy(row, 'jump_loss', setting):.3f}"}
 
 
-def measure(studies, folder):
-    file = os.path.join(folder, "fracture.csv")
+def measure(dimension, studies, folder):
+    stem = os.path.join(folder, "fracture" if dimension == 2 else "fracture_3d")
+    file = stem + ".csv"
     rows = []
     if os.path.exists(file):  # studies that are not run again keep their rows
         with open(file) as stream:
             rows = [row for row in csv.DictReader(stream) if row["study"] not in studies]
     for study in studies:
-        for changes in STUDIES[study]:
+        for changes in STUDIES[dimension][study]:
             setting = {**DEFAULT, **changes}
             case = case_of(folder, setting)
             write_case(os.path.join(folder, "crack.xml"), case)
-            one = run(os.path.join(folder, "crack.xml"), os.path.join(folder, "crack"), is_enough=has_grown)
+            one = run(os.path.join(folder, "crack.xml"), os.path.join(folder, "crack"),
+                      is_enough=lambda so_far: has_grown(so_far, setting))
+            if not has_grown(one.history, setting):
+                fail(f"study {study}: the crack did not grow by {GROWTH:g} elements with {changes}")
             shown = {key: f"{value:.3g}" if isinstance(value, float) else value for key, value in setting.items()}
             rows.append({"study": study, **shown, **measured(one.history, setting), "unknowns": one.history[-1]["unknowns"],
                          "seconds": f"{one.processor:.3g}", "memory_mb": f"{one.memory:.0f}"})
             print("  ".join(f"{key} {value}" for key, value in rows[-1].items()), flush=True)
             write_rows(file, rows)
-    draw(rows, os.path.join(folder, "fracture.png"))
+    draw(rows, OTHERS[dimension], stem + ".png")
 
 
 # --- Drawing ---
 
+# Markers beside the lines of "resistance": label, marker, which rows.
+OTHERS = {2: [(f"{ON_DAMAGE}, {DROPPED}, analytic, 3 x 3 points", "+", lambda row: row["study"] == "points"),
+              (f"{ON_DAMAGE}, {DROPPED}, calibrated to the mesh: other meshes, horizon, zone, rule", "x",
+               lambda row: row["calibration"] == "Mesh-Consistent" and row["study"] != "boundary")],
+          3: [(f"{ON_DAMAGE}, {DROPPED}, horizon 2, four layers, 3 x 3 x 3 points", "+", lambda row: row["study"] == "points"),
+              (f"{ON_DAMAGE}, {DROPPED}, horizon 2, two, four and eight layers", "x",
+               lambda row: row["study"] == "thickness")]}
 
-def draw(rows, file):
+
+def draw(rows, others, file):
     figure, panels = plt.subplots(1, 4, figsize=(13, 5))
     lengths, *costs = panels
+
+    def plot(mine, *style, **styles):
+        lengths.plot([float(row["l"]) for row in mine], [float(row["load"]) for row in mine], *style, **styles)
+        for panel, column in zip(costs, ("seconds", "unknowns", "memory_mb")):
+            panel.plot([float(row[column]) for row in mine], [100 * abs(float(row["load"]) - 1) for row in mine], *style, **styles)
+
     for (discontinuous, stiffness), colour in POLICIES.items():
         mine = [row for row in rows if row["study"] == "resistance"
                 and (row["discontinuous"], row["stiffness"]) == (discontinuous, stiffness)]
-        style = {"color": colour, "marker": "o", "markersize": 4, "label": f"{discontinuous}, {stiffness}, analytic"}
-        lengths.plot([float(row["l"]) for row in mine], [float(row["load"]) for row in mine], **style)
-        error = [100 * abs(float(row["load"]) - 1) for row in mine]
-        for panel, column in zip(costs, ("seconds", "unknowns", "memory_mb")):
-            panel.plot([float(row[column]) for row in mine], error, **style)
-    others = {f"{ON_DAMAGE}, {DROPPED}, analytic, 3 x 3 points": ("+", lambda row: row["study"] == "points"),
-              f"{ON_DAMAGE}, {DROPPED}, calibrated to the mesh: other meshes, horizon, zone, rule":
-                  ("x", lambda row: row["calibration"] == "Mesh-Consistent" and row["study"] != "boundary")}
-    for label, (marker, belongs) in others.items():
-        mine = [row for row in rows if belongs(row)]
-        lengths.plot([float(row["l"]) for row in mine], [float(row["load"]) for row in mine], marker, color="black", label=label)
-        for panel, column in zip(costs, ("seconds", "unknowns", "memory_mb")):
-            panel.plot([float(row[column]) for row in mine], [100 * abs(float(row["load"]) - 1) for row in mine], marker,
-                       color="black")
+        plot(mine, color=colour, marker="o", markersize=4, label=f"{discontinuous}, {stiffness}, analytic")
+    for label, marker, belongs in others:
+        plot([row for row in rows if belongs(row)], marker, color="black", label=label)
     lengths.axhspan(0.95, 1.05, color="#eeeeee", zorder=0)
     for panel, label in zip(panels, ("characteristic length / element size", "processor time [s]", "unknowns", "memory [MB]")):
         panel.set_xlabel(label)

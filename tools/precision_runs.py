@@ -1,32 +1,65 @@
-"""What tools/work-precision runs: bodies on whose outer boundary an exact displacement is prescribed, node by node."""
+"""What tools/work-precision runs: plates in plane stress and slabs in plane strain, on whose outer boundary an exact
+displacement is prescribed, node by node."""
 
 import csv
 
-E, NU = 30000.0, 1.0 / 3.0
+import numpy as np
+
+E, NU = 30000.0, (1.0 / 3.0, 1.0 / 4.0)  # in two and in three dimensions
 
 
-def write_mesh(file, nodes, elements, boundary):
-    """A mesh of quadrilaterals or triangles, MSH 2.2, in which each node of the boundary is a group.
+def write_mesh(file, nodes, elements, groups):
+    """A mesh of triangles, quadrilaterals or hexahedra, MSH 2.2, with groups of nodes.
 
-    nodes: positions (n, 2); elements: (m, 4 or 3), from 0; boundary: numbers of nodes. The groups are n0, n1, ...
+    nodes: positions (n, 2 or 3); elements: (m, 3, 4 or 8), from 0; groups: {name: numbers of nodes, from 0}.
     """
+    dimension, kind = {3: (2, 2), 4: (2, 3), 8: (3, 5)}[len(elements[0])]
+    members = [(tag, n + 1) for tag, group in enumerate(groups.values(), start=2) for n in group]
     with open(file, "w") as out:
-        out.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(boundary) + 1}\n2 1 "plate"\n')
-        out.writelines(f'0 {n + 2} "n{n}"\n' for n in boundary)
+        out.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(groups) + 1}\n{dimension} 1 "body"\n')
+        out.writelines(f'0 {tag} "{name}"\n' for tag, name in enumerate(groups, start=2))
         out.write(f"$EndPhysicalNames\n$Nodes\n{len(nodes)}\n")
-        out.writelines(f"{n} {float(x)!r} {float(y)!r} 0\n" for n, (x, y) in enumerate(nodes, start=1))
-        out.write(f"$EndNodes\n$Elements\n{len(elements) + len(boundary)}\n")
-        out.writelines(f"{i} 15 2 {n + 2} {n + 1} {n + 1}\n" for i, n in enumerate(boundary, start=1))
-        kind = {3: 2, 4: 3}[len(elements[0])]
+        out.writelines(f"{n} " + " ".join(repr(float(x)) for x in node) + " 0" * (3 - dimension) + "\n"
+                       for n, node in enumerate(nodes, start=1))
+        out.write(f"$EndNodes\n$Elements\n{len(elements) + len(members)}\n")
+        out.writelines(f"{i} 15 2 {tag} {n} {n}\n" for i, (tag, n) in enumerate(members, start=1))
         out.writelines(f"{i} {kind} 2 1 1 " + " ".join(str(n + 1) for n in element) + "\n"
-                       for i, element in enumerate(elements, start=len(boundary) + 1))
+                       for i, element in enumerate(elements, start=len(members) + 1))
         out.write("$EndElements\n")
 
 
-def prescribed(boundary, displacements):
+def write_body(file, nodes, elements, boundary, layers=0, size=1.0):
+    """The mesh of a plane body, or of the slab that it becomes when drawn out into layers of that size, which cannot strain
+    across its thickness. Each node of the boundary is a group n0, n1, ..., with those above it."""
+    groups = {f"n{n}": [n + k * len(nodes) for k in range(layers + 1)] for n in boundary}
+    if layers > 0:
+        bottom = np.arange(len(nodes))
+        groups["faces"] = np.concatenate([bottom, bottom + layers * len(nodes)])
+        elements = np.concatenate([np.hstack([elements + k * len(nodes), elements + (k + 1) * len(nodes)])
+                                   for k in range(layers)])
+        heights = size * np.repeat(np.arange(layers + 1), len(nodes))
+        nodes = np.column_stack([np.tile(nodes, (layers + 1, 1)), heights])
+    write_mesh(file, nodes, elements, groups)
+
+
+def prescribed(boundary, displacements, layers=0):
     """The case's list of displacements: those (m, 2) of the boundary's nodes in increment 1."""
-    return {f"n{n} {component}": {"Group": f"n{n}", "Component": component, "Rate": float(rate)}
-            for n, both in zip(boundary, displacements) for component, rate in zip("xy", both)}
+    held = {"faces": {"Group": "faces", "Component": "z"}} if layers > 0 else {}
+    return held | {f"n{n} {component}": {"Group": f"n{n}", "Component": component, "Rate": float(rate)}
+                   for n, both in zip(boundary, displacements) for component, rate in zip("xy", both)}
+
+
+def material(layers):
+    """Of a plate in plane stress or of a slab in plane strain."""
+    return {"Young's Modulus": E, "Poisson's Ratio": NU[bool(layers)],
+            "Elastic Model": "Three-Dimensional" if layers else "Plane Stress"}
+
+
+def plane_constants(layers):
+    """Of a plate in plane stress or of a slab in plane strain: shear modulus, Kolosov's constant, K^2 / G."""
+    nu = NU[bool(layers)]
+    mu = E / (2 * (1 + nu))
+    return (mu, 3 - 4 * nu, E / (1 - nu**2)) if layers else (mu, (3 - nu) / (1 + nu), E)
 
 
 def write_rows(file, rows):

@@ -1,4 +1,5 @@
-// A block with an edge crack through its thickness, 24 x 48, pulled at two hinges. Lengths in mm.
+// A block with an edge crack through its thickness, 24 x 48, pulled at two hinges; of thickness 0 its plane section.
+// Lengths in mm.
 //
 //       6 ----- 5 ----- 4   y = 24    upper hinge: the line through 5
 //       |       |       |
@@ -38,8 +39,13 @@ Transfinite Curve{1, 2, 4, 5} = Round(width / 2 / dx) + 1;
 Transfinite Curve{3, 6, 7} = Round(height / dx) + 1;
 Transfinite Surface{:};
 Recombine Surface{:};
-Extrude {0, 0, thickness} { Surface{1, 2}; Layers{Round(thickness / dx)}; Recombine; }
 
+If (thickness == 0)
+  Physical Surface("block") = Surface{:};
+  Physical Point("lower_hinge") = {2};
+  Physical Point("upper_hinge") = {5};
+Else
+Extrude {0, 0, thickness} { Surface{1, 2}; Layers{Round(thickness / dx)}; Recombine; }
 e = 0.01;
 Physical Volume("block") = Volume{:};
 Physical Curve("lower_hinge") =
@@ -51,3 +57,4 @@ Physical Surface("bottom") =
     Surface In BoundingBox{-e, -height / 2 - e, -e, width + e, -height / 2 + e, thickness + e};
 Physical Surface("top") =
     Surface In BoundingBox{-e, height / 2 - e, -e, width + e, height / 2 + e, thickness + e};
+EndIf

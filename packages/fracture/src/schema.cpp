@@ -77,13 +77,14 @@ void declare_material(ParameterList& root) {
   material.set(
       "Calibration", "Mesh-Consistent",
       "How fracture energy and critical stretch belong together. \"Analytic\": by that integral. \"Mesh-Consistent\": "
-      "the stretch is lowered by what the mesh itself holds a crack up, so that a crack runs at K = sqrt(G_c E) "
+      "the stretch is changed by what the mesh itself holds a crack up, so that a crack runs at K = sqrt(G_c E) "
       "also with a characteristic length of a fifth to a half of an element; the factor depends on that length over "
       "the "
       "mean edge of the elements in the seeds, and on the two choices in Morphing. A given critical stretch stays as "
       "it is: then "
-      "the fracture energy that is printed is greater. In three dimensions, and with three points per direction, "
-      "the factor has not been measured, and it is as \"Analytic\".",
+      "the fracture energy that is printed is greater. With three points per direction the factor has not been "
+      "measured, "
+      "and it is as \"Analytic\".",
       one_of(words(calibrations)));
 }
 
