@@ -34,7 +34,7 @@ def horizon_for(length):
 
 def slab(length, horizon, **changes):
     """A setting in three dimensions; the zone as small as may be, two elements wider than a horizon."""
-    return {"layers": 8, "calibration": "Analytic", "half_width": 50.0, "l": length, "horizon": horizon,
+    return {"layers": 4, "calibration": "Analytic", "half_width": 50.0, "l": length, "horizon": horizon,
             "zone": 1.0 + 2.0 / horizon, **changes}
 
 
@@ -52,8 +52,9 @@ STUDIES = {2: {
 }, 3: {
     "resistance": [slab(l, horizon_for(l), discontinuous=discontinuous, stiffness=stiffness)
                    for discontinuous, stiffness in POLICIES for l in LENGTHS[:3]],
-    "thickness": [slab(0.2, 2.0, layers=layers) for layers in (2, 4, 8)],
-    "points": [slab(0.2, 2.0, layers=4, points=3)],
+    "thickness": [slab(l, horizon_for(l), layers=layers) for l in LENGTHS[:3] for layers in (2, 8)],
+    "horizon": [slab(l, 2.0) for l in LENGTHS[:2]],
+    "points": [slab(0.2, 2.0, points=3)],
 }}
 
 
@@ -271,9 +272,10 @@ def measure(dimension, studies, folder):
 OTHERS = {2: [(f"{ON_DAMAGE}, {DROPPED}, analytic, 3 x 3 points", "+", lambda row: row["study"] == "points"),
               (f"{ON_DAMAGE}, {DROPPED}, calibrated to the mesh: other meshes, horizon, zone, rule", "x",
                lambda row: row["calibration"] == "Mesh-Consistent" and row["study"] != "boundary")],
-          3: [(f"{ON_DAMAGE}, {DROPPED}, horizon 2, four layers, 3 x 3 x 3 points", "+", lambda row: row["study"] == "points"),
-              (f"{ON_DAMAGE}, {DROPPED}, horizon 2, two, four and eight layers", "x",
-               lambda row: row["study"] == "thickness")]}
+          3: [(f"{ON_DAMAGE}, {DROPPED}, two layers", "v", lambda row: row["study"] == "thickness" and int(row["layers"]) == 2),
+              (f"{ON_DAMAGE}, {DROPPED}, eight layers", "^", lambda row: row["study"] == "thickness" and int(row["layers"]) == 8),
+              (f"{ON_DAMAGE}, {DROPPED}, horizon 2", "x", lambda row: row["study"] == "horizon"),
+              (f"{ON_DAMAGE}, {DROPPED}, horizon 2, 3 x 3 x 3 points", "+", lambda row: row["study"] == "points")]}
 
 
 def draw(rows, others, file):

@@ -79,7 +79,7 @@ TEST_F(CaseFile, DefaultsAreFilledIn) {
   EXPECT_EQ(result.tolerance, 1e-6);
   EXPECT_EQ(result.max_cg_iterations, 500);
   EXPECT_EQ(result.damage_tolerance, 1e-4);
-  EXPECT_EQ(result.renewal_cost, 50.);
+  EXPECT_EQ(result.renewal_cost, 12.);
   EXPECT_EQ(result.output_every, 1);
 }
 

@@ -180,7 +180,7 @@ Criticals criticals(const CrackTest& test, const Setting& setting) {
   SpecimenBody specimen(test.specimen);
   fracture::Body<2>& body = specimen.body;
   const double resistance =
-      fracture::lattice_resistance(2, setting.discontinuous, setting.stiffness, setting.characteristic_length);
+      fracture::lattice_resistance(setting.discontinuous, setting.stiffness, setting.characteristic_length);
   const double fracture_energy = resistance * resistance * specimen.problem.fracture_energy;
   const double critical = std::sqrt(1000. * fracture_energy);
   const auto grown = [&] {
@@ -265,7 +265,7 @@ TEST(GriffithEnergy, TheEnergyDissipatedIsTheFractureEnergyTimesTheNewArea) {
   SpecimenBody specimen(test.specimen);
   fracture::Body<2>& body = specimen.body;
   const double resistance =
-      fracture::lattice_resistance(2, setting.discontinuous, setting.stiffness, setting.characteristic_length);
+      fracture::lattice_resistance(setting.discontinuous, setting.stiffness, setting.characteristic_length);
   const double fracture_energy = resistance * resistance * specimen.problem.fracture_energy;
   body.apply_load(1.);
   body.update_topology();

@@ -118,22 +118,29 @@ void Body<dim>::assemble() {
   stiffness_ = Teuchos::rcp(new operators::MatrixFreeStiffness<dim>(model(), supports));
   const bool is_short_range = options_.preconditioner_matrix == PreconditionerMatrix::short_range;
   const bool is_crs = options_.operator_form == OperatorForm::crs;
-  Teuchos::RCP<const operators::PointBasis<dim>> basis;
+  const auto old_basis = basis_;
   if (is_short_range) {
     const auto selection = operators::short_range(model(), *comm_, options_.short_range_cut_off);
-    basis = Teuchos::rcp(new operators::PointBasis<dim>(model(), supports, discontinuous_));
-    short_range_ = std::make_unique<Matrix>(model(), supports, selection, basis);
+    basis_ = Teuchos::rcp(new operators::PointBasis<dim>(model(), supports, discontinuous_));
+    short_range_ = std::make_unique<Matrix>(model(), supports, selection, basis_);
   }
   if (is_crs || !is_short_range) matrix_ = std::make_unique<Matrix>(model(), supports);
 
   std::vector<Point<dim>> coordinates;
   for (int n = 0; n < dofs_->n_owned_nodes(); ++n) coordinates.push_back(mesh_.coordinates[dofs_->reference_node(n)]);
-  if (!basis.is_null()) basis->move_to_points(coordinates);
+  if (!basis_.is_null()) basis_->move_to_points(coordinates);
+  std::optional<base::NodeWeights> from_old;
+  if (counts_.topologies > 0) {
+    from_old =
+        operators::weights_of_old_unknowns(model(), basis_.get(), old_dofs_ ? *old_dofs_ : *dofs_, old_basis.get());
+  }
+  old_dofs_.reset();
   const auto preconditioner_matrix = (is_short_range ? short_range_ : matrix_)->matrix();
   Teuchos::RCP<solvers::Operator> linear_operator = stiffness_;
   if (is_crs) linear_operator = matrix_->linear_operator();
   solver_.set_operator(linear_operator, preconditioner_matrix,
-                       solvers::rigid_body_modes<dim>(*preconditioner_matrix, coordinates), basis);
+                       solvers::rigid_body_modes<dim>(*preconditioner_matrix, coordinates), basis_,
+                       std::move(from_old));
 }
 
 template <int dim>
@@ -201,7 +208,7 @@ void Body<dim>::renumber() {
       }
     }
   }
-  dofs_ = std::move(dofs);
+  old_dofs_ = std::exchange(dofs_, std::move(dofs));
   all_u_ = all_u;
   owned_u_ = Teuchos::rcp(new Vector(dofs_->owned_dofs()));
   Tpetra::deep_copy(*owned_u_, *all_u_->offsetView(dofs_->owned_dofs(), 0));

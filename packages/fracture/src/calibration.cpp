@@ -9,42 +9,29 @@ namespace perimorph::fracture {
 namespace {
 
 constexpr std::array<double, 4> lengths = {0.2, 0.25, 1. / 3., 0.5};  // characteristic, in element sizes
+using Resistances = std::array<double, lengths.size()>;
 
-/// At these lengths; in three dimensions, where the longest has not been measured, without it.
-struct Resistances {
-  std::array<double, lengths.size()> values;
-  std::size_t count = lengths.size();
-};
+// The column "load" of the study "resistance" in tests/verification/fracture.csv.
+constexpr Resistances on_damage_dropped = {1.289, 1.105, 1.030, 0.993};
+constexpr Resistances on_damage_kept = {1.530, 1.350, 1.130, 0.986};
+constexpr Resistances whole_zone_dropped = {1.145, 1.082, 1.031, 0.997};
+constexpr Resistances whole_zone_kept = {1.136, 1.069, 1.015, 0.991};
 
-/// The column "load" of the study "resistance" in tests/verification/fracture.csv and fracture_3d.csv.
-struct Policies {
-  Resistances on_damage_dropped, on_damage_kept, whole_zone_dropped, whole_zone_kept;
-};
-constexpr Policies in_2d = {{{1.289, 1.105, 1.030, 0.993}},
-                            {{1.530, 1.350, 1.130, 0.986}},
-                            {{1.145, 1.082, 1.031, 0.997}},
-                            {{1.136, 1.069, 1.015, 0.991}}};
-constexpr Policies in_3d = {
-    {{1.013, 0.95, 0.9}, 3}, {{1.013, 0.95, 0.9}, 3}, {{1.013, 0.95, 0.9}, 3}, {{1.013, 0.95, 0.9}, 3}};
-
-const Resistances& resistances_of(int dimension, DiscontinuousElements discontinuous, PeridynamicStiffness stiffness) {
-  const Policies& measured = dimension == 2 ? in_2d : in_3d;
+const Resistances& resistances_of(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness) {
   const bool is_kept = stiffness == PeridynamicStiffness::kept;
-  if (discontinuous == DiscontinuousElements::whole_zone) {
-    return is_kept ? measured.whole_zone_kept : measured.whole_zone_dropped;
-  }
-  return is_kept ? measured.on_damage_kept : measured.on_damage_dropped;
+  if (discontinuous == DiscontinuousElements::whole_zone) return is_kept ? whole_zone_kept : whole_zone_dropped;
+  return is_kept ? on_damage_kept : on_damage_dropped;
 }
 
 }  // namespace
 
-double lattice_resistance(int dimension, DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
+double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
                           double characteristic_length) {
-  const auto& [values, count] = resistances_of(dimension, discontinuous, stiffness);
+  const Resistances& measured = resistances_of(discontinuous, stiffness);
   std::size_t i = 0;
-  while (i + 2 < count && characteristic_length > lengths[i + 1]) ++i;
+  while (i + 2 < lengths.size() && characteristic_length > lengths[i + 1]) ++i;
   const double share = std::clamp((characteristic_length - lengths[i]) / (lengths[i + 1] - lengths[i]), 0., 1.);
-  return (1. - share) * values[i] + share * values[i + 1];
+  return (1. - share) * measured[i] + share * measured[i + 1];
 }
 
 template <int dim>
@@ -76,14 +63,15 @@ double element_size(const base::Comm& comm, const mesh::Mesh<dim>& body, const P
 }
 
 bool is_calibrated_to_mesh(const Case& input) {
-  return input.points_per_direction == 2 && input.calibration == Calibration::mesh_consistent;
+  const bool is_measured = input.dimension == 2 && input.points_per_direction == 2;
+  return is_measured && input.calibration == Calibration::mesh_consistent;
 }
 
 template <int dim>
 bool calibrate_to_mesh(Problem<dim>& problem, const Case& input, double element_size) {
   if (!is_calibrated_to_mesh(input) || std::isinf(problem.critical_stretch)) return false;
-  const double resistance = lattice_resistance(dim, input.discontinuous, input.peridynamic_stiffness,
-                                               input.characteristic_length / element_size);
+  const double resistance =
+      lattice_resistance(input.discontinuous, input.peridynamic_stiffness, input.characteristic_length / element_size);
   if (input.critical_stretch) {
     problem.fracture_energy *= resistance * resistance;
   } else {

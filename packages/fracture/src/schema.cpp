@@ -77,14 +77,13 @@ void declare_material(ParameterList& root) {
   material.set(
       "Calibration", "Mesh-Consistent",
       "How fracture energy and critical stretch belong together. \"Analytic\": by that integral. \"Mesh-Consistent\": "
-      "the stretch is changed by what the mesh itself holds a crack up, so that a crack runs at K = sqrt(G_c E) "
+      "the stretch is lowered by what the mesh itself holds a crack up, so that a crack runs at K = sqrt(G_c E) "
       "also with a characteristic length of a fifth to a half of an element; the factor depends on that length over "
       "the "
       "mean edge of the elements in the seeds, and on the two choices in Morphing. A given critical stretch stays as "
       "it is: then "
-      "the fracture energy that is printed is greater. With three points per direction the factor has not been "
-      "measured, "
-      "and it is as \"Analytic\".",
+      "the fracture energy that is printed is greater. In three dimensions, and with three points per direction, "
+      "the factor has not been measured, and it is as \"Analytic\".",
       one_of(words(calibrations)));
 }
 
@@ -305,7 +304,7 @@ void declare_solver(ParameterList& root) {
       "Of conjugate gradients in one solution. When they do not suffice, the system is tried twice more with other "
       "preconditioners; then the run ends with status 3. Far below 100 it may end although nothing is wrong.",
       count());
-  solver.set("Renewal Cost", 50.,
+  solver.set("Renewal Cost", 12.,
              "The preconditioner is renewed when, since its last set-up, solutions have taken so many iterations more "
              "than they would have with a new one [-]: what a set-up costs, in iterations.",
              at_least(0.));

@@ -77,6 +77,33 @@ void PointBasis<dim>::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
   }
 }
 
+template <int dim>
+base::NodeWeights weights_of_old_unknowns(const CoupledModel<dim>& model, const PointBasis<dim>* basis,
+                                          const discretization::DofMap<dim>& old_dofs,
+                                          const PointBasis<dim>* old_basis) {
+  const auto is_by_points = [](const PointBasis<dim>* one, int e) { return one != nullptr && one->holds(e); };
+  base::NodeWeights weights(model.dofs.n_owned_nodes());
+  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+    const int* nodes = model.dofs.nodes_of(e);
+    const int* old_nodes = old_dofs.nodes_of(e);
+    const bool becomes_points = is_by_points(basis, e) && !is_by_points(old_basis, e);
+    for (int k = 0; k < model.mesh.n_corners(e); ++k) {
+      if (nodes[k] >= model.dofs.n_owned_nodes() || !weights[nodes[k]].empty()) continue;
+      if (!becomes_points) {
+        weights[nodes[k]] = {{old_nodes[k], 1.}};
+        continue;
+      }
+      const auto& shape = model.points.shape(e, k);
+      for (int l = 0; l < model.mesh.n_corners(e); ++l) weights[nodes[k]].push_back({old_nodes[l], shape(l)});
+    }
+  }
+  return weights;
+}
+
+template base::NodeWeights weights_of_old_unknowns<2>(const CoupledModel<2>&, const PointBasis<2>*,
+                                                      const discretization::DofMap<2>&, const PointBasis<2>*);
+template base::NodeWeights weights_of_old_unknowns<3>(const CoupledModel<3>&, const PointBasis<3>*,
+                                                      const discretization::DofMap<3>&, const PointBasis<3>*);
 template class PointBasis<2>;
 template class PointBasis<3>;
 

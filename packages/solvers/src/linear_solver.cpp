@@ -40,17 +40,21 @@ class InBasis : public Operator {
 
 void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
                                 const Teuchos::RCP<Matrix>& preconditioner_matrix, const NearNullSpace& near_null_space,
-                                const Teuchos::RCP<const Operator>& basis) {
+                                const Teuchos::RCP<const Operator>& basis, std::optional<base::NodeWeights> from_old) {
   operator_ = linear_operator;
   preconditioner_matrix_ = preconditioner_matrix;
   near_null_space_ = near_null_space;
   basis_ = basis;
-  forget();
+  const bool can_move = from_old && !moved_ && condition_ == Condition::good && cycle_ == Cycle::fast;
+  if (!can_move) return forget();
+  moved_ = std::move(from_old);
+  changed_nodes_.clear();
 }
 
 void LinearSolver::forget() {
   multigrid_.reset();
   factorization_.reset();
+  moved_.reset();
   condition_ = Condition::missing;
   cycle_ = Cycle::fast;
 }
@@ -113,6 +117,11 @@ void LinearSolver::build() {
 void LinearSolver::prepare() {
   const auto timer = profile_.measure(base::Phase::preconditioner);
   auto changed = std::exchange(changed_nodes_, {});
+  if (const auto moved = std::exchange(moved_, std::nullopt)) {
+    multigrid_->move_to(preconditioner_matrix_, *moved);
+    refreshed_ = true;
+    return;
+  }
   if (condition_ == Condition::good) {
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
@@ -164,12 +173,13 @@ LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, 
 /// Iterations per decade just after a rebuild are what it should take; what it takes more adds up, until it has cost as
 /// much as a new set-up.
 void LinearSolver::judge(int iterations, double relative_tolerance) {
+  constexpr double enough = 2.5;  // decades; of less the first, slow iterations are too large a share
   const double decades = -std::log10(relative_tolerance);
   if (fresh_rate_ == 0.) {
-    if (decades >= 1.) fresh_rate_ = iterations / decades;  // less is too little to judge by
+    if (decades >= enough) fresh_rate_ = iterations / decades;
     return;
   }
-  excess_ += iterations - fresh_rate_ * decades;
+  excess_ = std::max(0., excess_ + iterations - fresh_rate_ * decades);
   if (excess_ > parameters_.renewal_cost) condition_ = Condition::aged;
 }
 

@@ -3,6 +3,8 @@
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <MueLu_Utilities.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_RowMatrixTransposer.hpp>
+#include <algorithm>
 
 #include "perimorph/base/errors.hpp"
 #include "single_precision_cycle.hpp"
@@ -64,6 +66,49 @@ std::vector<CycleLevel> levels_of(const Preconditioner& preconditioner) {
     levels[l - 1].prolongation = matrix(l, "P");
   }
   return levels;
+}
+
+/// Rows of blocks as sums of another matrix's, with the same columns. Collective.
+Teuchos::RCP<Matrix> weighted_rows(const Matrix& matrix, const Teuchos::RCP<const Tpetra::Map<>>& rows,
+                                   const base::NodeWeights& weights, int block_size) {
+  using Local = Matrix::local_matrix_device_type;
+  const auto local = matrix.getLocalMatrixHost();
+  std::vector<std::size_t> row_starts = {0};
+  std::vector<int> columns;
+  std::vector<double> values, sums(local.numCols(), 0.);
+  std::vector<int> seen_by(local.numCols(), -1);
+  for (const auto& node : weights) {
+    for (int c = 0; c < block_size; ++c) {
+      const auto row = static_cast<int>(row_starts.size());
+      for (const auto& [other, weight] : node) {
+        for (auto k = local.graph.row_map(other * block_size + c); k < local.graph.row_map(other * block_size + c + 1);
+             ++k) {
+          const int column = local.graph.entries(k);
+          if (seen_by[column] != row) {
+            seen_by[column] = row;
+            sums[column] = 0.;
+            columns.push_back(column);
+          }
+          sums[column] += weight * local.values(k);
+        }
+      }
+      const auto begin = columns.begin() + static_cast<std::ptrdiff_t>(row_starts.back());
+      std::sort(begin, columns.end());
+      std::transform(begin, columns.end(), std::back_inserter(values), [&](int column) { return sums[column]; });
+      row_starts.push_back(columns.size());
+    }
+  }
+  const auto copied = [](auto view, const auto& from) {
+    std::copy(from.begin(), from.end(), view.data());
+    return view;
+  };
+  const auto result = Teuchos::rcp(
+      new Matrix(rows, matrix.getColMap(),
+                 copied(typename Local::row_map_type::non_const_type("row starts", row_starts.size()), row_starts),
+                 copied(typename Local::index_type("columns", columns.size()), columns),
+                 copied(typename Local::values_type("values", values.size()), values)));
+  result->expertStaticFillComplete(matrix.getDomainMap(), rows, matrix.getGraph()->getImporter());
+  return result;
 }
 
 }  // namespace
@@ -140,9 +185,26 @@ void Multigrid::refresh_finest(const std::vector<int>& nodes) {
 void Multigrid::make_operator() {
   operator_ = hierarchy_->preconditioner;
   if (!has_own_cycle_) return;
-  const auto levels = levels_of(*hierarchy_->preconditioner);
-  own_cycle_ = dim_ == 2 ? make_single_precision_cycle<2>(levels) : make_single_precision_cycle<3>(levels);
+  levels_ = levels_of(*hierarchy_->preconditioner);
+  make_own_cycle();
+}
+
+void Multigrid::make_own_cycle() {
+  own_cycle_ = dim_ == 2 ? make_single_precision_cycle<2>(levels_) : make_single_precision_cycle<3>(levels_);
   operator_ = own_cycle_;
+}
+
+void Multigrid::move_to(const Teuchos::RCP<Matrix>& matrix, const base::NodeWeights& from_old) {
+  PERIMORPH_ASSERT(has_own_cycle_, "only our own cycle can be moved");
+  hierarchy_.reset();  // of the old matrix; what is still needed of it is in the levels
+  CycleLevel& finest = levels_.front();
+  finest.matrix = matrix;
+  if (levels_.size() > 1) {
+    finest.prolongation = weighted_rows(*finest.prolongation, matrix->getRowMap(), from_old, dim_);
+    finest.restriction =
+        Tpetra::RowMatrixTransposer<double>(Teuchos::rcp_const_cast<Matrix>(finest.prolongation)).createTranspose();
+  }
+  make_own_cycle();
 }
 
 template NearNullSpace rigid_body_modes<2>(const Matrix&, const std::vector<base::Point<2>>&);

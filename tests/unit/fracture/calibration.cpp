@@ -11,9 +11,9 @@ constexpr auto on_damage = DiscontinuousElements::on_damage;
 constexpr auto dropped = PeridynamicStiffness::dropped;
 
 TEST(LatticeResistance, FallsToOneWithTheCharacteristicLength) {
-  double before = lattice_resistance(2, on_damage, dropped, 0.2);
+  double before = lattice_resistance(on_damage, dropped, 0.2);
   for (double length = 0.22; length <= 0.5; length += 0.02) {
-    const double resistance = lattice_resistance(2, on_damage, dropped, length);
+    const double resistance = lattice_resistance(on_damage, dropped, length);
     EXPECT_LT(resistance, before);
     before = resistance;
   }
@@ -21,8 +21,8 @@ TEST(LatticeResistance, FallsToOneWithTheCharacteristicLength) {
 }
 
 TEST(LatticeResistance, StaysAtTheNearestMeasuredValueOutsideTheirRange) {
-  EXPECT_EQ(lattice_resistance(2, on_damage, dropped, 0.1), lattice_resistance(2, on_damage, dropped, 0.2));
-  EXPECT_EQ(lattice_resistance(2, on_damage, dropped, 2.), lattice_resistance(2, on_damage, dropped, 0.5));
+  EXPECT_EQ(lattice_resistance(on_damage, dropped, 0.1), lattice_resistance(on_damage, dropped, 0.2));
+  EXPECT_EQ(lattice_resistance(on_damage, dropped, 2.), lattice_resistance(on_damage, dropped, 0.5));
 }
 
 /// A case on elements of 1 with l = 0.2, of which only what the calibration reads is filled in.
@@ -51,7 +51,7 @@ TEST(CalibrationToTheMesh, LowersTheCriticalStretchByTheResistance) {
 
   calibrate_to_mesh(problem, input, 1.);
 
-  EXPECT_DOUBLE_EQ(problem.critical_stretch, 0.01 / lattice_resistance(2, on_damage, dropped, 0.2));
+  EXPECT_DOUBLE_EQ(problem.critical_stretch, 0.01 / lattice_resistance(on_damage, dropped, 0.2));
   EXPECT_EQ(problem.fracture_energy, *input.fracture_energy);
 }
 
@@ -64,7 +64,7 @@ TEST(CalibrationToTheMesh, LeavesAGivenCriticalStretchAndRaisesTheFractureEnergy
   calibrate_to_mesh(problem, input, 1.);
 
   EXPECT_EQ(problem.critical_stretch, 0.01);
-  EXPECT_DOUBLE_EQ(problem.fracture_energy, analytic * std::pow(lattice_resistance(2, on_damage, dropped, 0.2), 2));
+  EXPECT_DOUBLE_EQ(problem.fracture_energy, analytic * std::pow(lattice_resistance(on_damage, dropped, 0.2), 2));
 }
 
 TEST(CalibrationToTheMesh, ChangesNothingWhereTheResistanceHasNotBeenMeasured) {

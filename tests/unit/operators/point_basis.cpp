@@ -94,6 +94,24 @@ TEST_P(PointBasis, TakesAnAffineFieldAtItsCoordinatesToTheNodes) {
   }
 }
 
+TEST_P(PointBasis, TakesAnAffineFieldOverFromTheTopologyBefore) {
+  auto setup = held(GetParam());
+  setup.whole_zone_discontinuous = false;
+  const CoupledBody before(setup);
+  const auto old_coordinates = before.node_coordinates();
+  auto coordinates = body.node_coordinates();
+  basis->move_to_points(coordinates);
+
+  const auto weights = operators::weights_of_old_unknowns<2>(body.model(), basis.get(), *before.dofs, nullptr);
+
+  ASSERT_EQ(weights.size(), coordinates.size());
+  for (std::size_t n = 0; n < weights.size(); ++n) {
+    Point2 x = Point2::Zero();
+    for (const auto& [old, weight] : weights[n]) x += weight * old_coordinates[old];
+    EXPECT_LT((x - coordinates[n]).norm(), 1e-12 * 20.);
+  }
+}
+
 TEST_P(PointBasis, IsTheTransposeOfItsTranspose) {
   const Vector x = wave(1.7), y = wave(0.9);
   Vector t_x(x.getMap()), t_y(x.getMap());

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/operators/point_basis.hpp"
 #include "support/coupled_body.hpp"
 
 namespace perimorph::tests {
@@ -68,6 +69,25 @@ class LinearSolver : public testing::Test {
     body.stiffness->subtract(broken);
   }
 };
+
+TEST_F(LinearSolver, MovesToAnotherTopologyWithTheSamePreconditioner) {
+  auto setup = hybrid(true);
+  setup.whole_zone_discontinuous = false;
+  const CoupledBody before(setup);
+  solvers::LinearSolver moved({}, profile), fresh({}, profile);
+  use(moved, before);
+  MultiVector old_b(before.stiffness->matrix()->getRowMap(), 1), old_x(old_b.getMap(), 1);
+  old_b.putScalar(1.);
+  moved.solve(old_b, old_x, 1e-6);
+
+  moved.set_operator(matrix, matrix, modes(body), Teuchos::null,
+                     operators::weights_of_old_unknowns<2>(body.model(), nullptr, *before.dofs, nullptr));
+  use(fresh, body);
+
+  const int iterations = fresh.solve(b, x, 1e-8);
+  EXPECT_LE(moved.solve(b, x, 1e-8), 1.5 * iterations);
+  EXPECT_LE(residual(), 1.01e-8);
+}
 
 TEST_F(LinearSolver, ReachesTheTargetResidual) {
   solvers::LinearSolver solver({}, profile);

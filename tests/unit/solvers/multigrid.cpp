@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "perimorph/operators/point_basis.hpp"
 #include "support/coupled_body.hpp"
 
 namespace perimorph::tests {
@@ -122,6 +123,48 @@ TEST_F(Multigrid, FollowsNewValuesOfTheFinestLevelWhereTheyAre) {
   difference.update(-1., before, 1.);
   EXPECT_GT(dot(difference, difference), 1e-6 * dot(before, before));
 }
+
+/// Before the elements of the zone parted.
+class MovedMultigrid : public Multigrid, public testing::WithParamInterface<bool> {
+ protected:
+  CoupledBody before{[] {
+    auto setup = hybrid();
+    setup.whole_zone_discontinuous = false;
+    return setup;
+  }()};
+};
+
+TEST_P(MovedMultigrid, IsSymmetricAndReducesErrorsOfTheMatrixThatItHasMovedTo) {
+  const bool is_by_points = GetParam();
+  Teuchos::RCP<const operators::PointBasis<2>> basis;
+  std::vector<Point2> coordinates = before.node_coordinates();
+  const auto old_matrix = before.stiffness->matrix();
+  solvers::Multigrid multigrid(old_matrix, solvers::rigid_body_modes<2>(*old_matrix, coordinates), {},
+                               solvers::Multigrid::Cycle::fast);
+  std::unique_ptr<operators::CoupledStiffness<2>> by_points;
+  if (is_by_points) {
+    basis = Teuchos::rcp(new operators::PointBasis<2>(body.model(), body.supports(), body.discontinuous));
+    by_points =
+        std::make_unique<operators::CoupledStiffness<2>>(body.model(), body.supports(), operators::all_bonds, basis);
+    matrix = by_points->matrix();
+  }
+
+  multigrid.move_to(matrix, operators::weights_of_old_unknowns<2>(body.model(), basis.get(), *before.dofs, nullptr));
+
+  ASSERT_GT(matrix->getGlobalNumRows(), old_matrix->getGlobalNumRows());
+  const auto& cycle = *multigrid.apply_inverse();
+  const auto x = wave(0.4), y = wave(1.3);
+  const auto cycle_x = times(cycle, x), cycle_y = times(cycle, y);
+  EXPECT_NEAR(dot(x, cycle_y), dot(cycle_x, y), 1e-5 * std::sqrt(dot(x, cycle_x) * dot(y, cycle_y)));
+  for (const double frequency : {0.05, 0.4, 2.9}) {
+    auto error = wave(frequency);
+    const double energy = dot(error, times(*matrix, error));
+    error.update(-1., times(cycle, times(*matrix, error)), 1.);
+    EXPECT_LT(dot(error, times(*matrix, error)), 0.5 * energy) << "frequency " << frequency;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bases, MovedMultigrid, testing::Bool());
 
 /// Values that were zero, as those between x and y are in many a regular mesh, and no longer are.
 TEST_F(Multigrid, IsRefreshedWhereZerosHaveGotValues) {

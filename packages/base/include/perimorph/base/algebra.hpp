@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
+#include <vector>
 
 namespace perimorph::base {
 
@@ -22,5 +24,8 @@ using Voigt = Eigen::Matrix<double, n_voigt<dim>, 1>;
 /// Elasticity tensor in Voigt notation, (n_voigt, n_voigt), [stress].
 template <int dim>
 using Stiffness = Eigen::Matrix<double, n_voigt<dim>, n_voigt<dim>>;
+
+/// Displacements of nodes as sums of those of other nodes: by node, which ones and their weights.
+using NodeWeights = std::vector<std::vector<std::pair<int, double>>>;
 
 }  // namespace perimorph::base

@@ -7,10 +7,10 @@ namespace perimorph::fracture {
 /// K / sqrt(E G_c) at which a crack runs between regular elements, the mean over two of them, if the critical stretch
 /// follows from the integral (materials::critical_stretch). A crack moves from element to element; it is held up at
 /// each, and what the body loses as it breaks free is not in the energy of the bonds. Interpolated between measured
-/// values (`tools/work-precision --only fracture`), for characteristic lengths of 0.2 to 0.5 elements, in three
-/// dimensions to a third; beyond, the value of the nearest of these. Local.
+/// values (`tools/work-precision --only fracture`), for characteristic lengths of 0.2 to 0.5 elements; beyond, the
+/// value of the nearest of these. Local.
 /// @param characteristic_length in element sizes [-]
-double lattice_resistance(int dimension, DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
+double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
                           double characteristic_length);
 
 /// Size of the elements in which cracks start: mean edge in the seeds, of all elements if there are none in them,
@@ -18,8 +18,8 @@ double lattice_resistance(int dimension, DiscontinuousElements discontinuous, Pe
 template <int dim>
 double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
 
-/// Whether a case's critical stretch and fracture energy make up for the lattice's resistance. With other than two
-/// points per direction the resistance has not been measured for all policies. Local.
+/// Whether a case's critical stretch and fracture energy make up for the lattice's resistance. In three dimensions, and
+/// with other than two points per direction, the resistance has not been measured for all policies. Local.
 bool is_calibrated_to_mesh(const Case& input);
 
 /// If the case is to be, divides the critical stretch by the lattice's resistance, so that a crack runs at

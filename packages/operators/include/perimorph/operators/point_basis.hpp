@@ -55,4 +55,13 @@ class PointBasis : public Tpetra::Operator<double> {
   bool is_suitable(int element, const Supports<dim>& supports) const;
 };
 
+/// The unknowns of a topology from those of the one before, by owned node: those that nodes have parted from, and for
+/// those that have become a point's the shape functions there. A node and the one that it has parted from have the same
+/// owner. Local.
+/// @param basis null: nodal displacements; a basis of the old topology may have outlived its model
+template <int dim>
+base::NodeWeights weights_of_old_unknowns(const CoupledModel<dim>& model, const PointBasis<dim>* basis,
+                                          const discretization::DofMap<dim>& old_dofs,
+                                          const PointBasis<dim>* old_basis);
+
 }  // namespace perimorph::operators

@@ -2,6 +2,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <memory>
+#include <optional>
 
 #include "perimorph/base/profile.hpp"
 #include "perimorph/solvers/factorization.hpp"
@@ -11,7 +12,7 @@ namespace perimorph::solvers {
 
 struct SolverParameters {
   int max_iterations = 500;
-  double renewal_cost = 50.;            ///< iterations more than with a new preconditioner, after which it is renewed
+  double renewal_cost = 12.;            ///< iterations more than with a new preconditioner, after which it is renewed
   Teuchos::ParameterList belos, muelu;  ///< overrides
 };
 
@@ -22,11 +23,13 @@ class LinearSolver {
   LinearSolver(SolverParameters parameters, base::Profile& profile)
       : parameters_(std::move(parameters)), profile_(profile) {}
 
-  /// A new operator: the preconditioner is rebuilt before the next solve, from a matrix that is near to the operator,
-  /// or the same. Local.
+  /// A new operator, and the matrix that its preconditioner is made from, which is near to it or the same. Local.
   /// @param basis T, if the preconditioner's matrix is near to T^T A T instead
+  /// @param from_old the matrix's nodes from those of the one before, if there was one: the preconditioner moves with
+  ///        them as long as it serves; without, it is rebuilt before the next solve
   void set_operator(const Teuchos::RCP<Operator>& linear_operator, const Teuchos::RCP<Matrix>& preconditioner_matrix,
-                    const NearNullSpace& near_null_space, const Teuchos::RCP<const Operator>& basis = Teuchos::null);
+                    const NearNullSpace& near_null_space, const Teuchos::RCP<const Operator>& basis = Teuchos::null,
+                    std::optional<base::NodeWeights> from_old = std::nullopt);
 
   /// The preconditioner's matrix has new values in the rows of these owned nodes. Local.
   void note_change(const std::vector<int>& nodes);
@@ -53,8 +56,9 @@ class LinearSolver {
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
   Condition condition_ = Condition::missing;
-  std::vector<int> changed_nodes_;  ///< since the last solve; some more than once
-  bool refreshed_ = false;          ///< since the last rebuild
+  std::vector<int> changed_nodes_;          ///< since the last solve; some more than once
+  std::optional<base::NodeWeights> moved_;  ///< to a new matrix since the last solve
+  bool refreshed_ = false;                  ///< or moved since the last rebuild
   Cycle cycle_ = Cycle::fast;
 
   bool is_factorized() const;

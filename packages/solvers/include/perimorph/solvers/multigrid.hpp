@@ -15,6 +15,7 @@ using Matrix = Tpetra::CrsMatrix<double>;
 using MultiVector = Tpetra::MultiVector<double>;
 using Operator = Tpetra::Operator<double>;
 class SinglePrecisionCycle;
+struct CycleLevel;
 
 /// Rigid-body modes of the owned degrees of freedom: dim translations and the rotations (3 modes in 2D, 6 in 3D), and
 /// the nodes' coordinates, as MueLu wants them. @param coordinates of the owned nodes, [length]
@@ -37,8 +38,14 @@ class Multigrid {
             const Teuchos::ParameterList& overrides, Cycle cycle);
   ~Multigrid();
 
-  /// New values in the same matrix: keeps aggregates and prolongators ("RP" reuse), renews the rest. Collective.
+  /// New values in the same matrix: keeps aggregates and prolongators ("RP" reuse), renews the rest. Not after
+  /// move_to(). Collective.
   void refresh();
+
+  /// Another matrix, some of whose nodes have parted: our own cycle's finest level becomes it, the coarse ones stay.
+  /// Collective.
+  /// @param from_old its nodes from those of the matrix before, which have the same owners
+  void move_to(const Teuchos::RCP<Matrix>& matrix, const base::NodeWeights& from_old);
 
   /// New values in the rows of these owned nodes, for our own cycle's finest level only. Local.
   void refresh_finest(const std::vector<int>& nodes);
@@ -50,10 +57,12 @@ class Multigrid {
   std::unique_ptr<Hierarchy> hierarchy_;
   int dim_;
   bool has_own_cycle_;
+  std::vector<CycleLevel> levels_;  ///< of our own cycle
   Teuchos::RCP<SinglePrecisionCycle> own_cycle_;
   Teuchos::RCP<Operator> operator_;
 
   void make_operator();
+  void make_own_cycle();
 };
 
 }  // namespace perimorph::solvers
