@@ -39,7 +39,7 @@ class Advice {
 
   void check_resolution() {
     const double length = input_.characteristic_length / size_, horizon = input_.horizon / size_;
-    if (breaks() && length < least_length && input_.dimension == 2) {  // not measured in three
+    if (breaks() && length < least_length && input_.dimension == 2) {  // in three little is held up
       const double resistance = lattice_resistance(input_.discontinuous, input_.peridynamic_stiffness, length);
       add("/Peridynamics/Characteristic Length",
           "{:.4g} is {:.2f} of an element; the mesh then holds cracks up, to {:.2f} of the load of fracture "

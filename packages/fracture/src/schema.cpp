@@ -82,8 +82,8 @@ void declare_material(ParameterList& root) {
       "the "
       "mean edge of the elements in the seeds, and on the two choices in Morphing. A given critical stretch stays as "
       "it is: then "
-      "the fracture energy that is printed is greater. In three dimensions, and with three points per direction, "
-      "the factor has not been measured, and it is as \"Analytic\".",
+      "the fracture energy that is printed is greater. In three dimensions, where cracks are hardly held up, and with "
+      "three points per direction it is as \"Analytic\".",
       one_of(words(calibrations)));
 }
 

@@ -46,7 +46,7 @@ TEST(Advice, ACharacteristicLengthOfAFifthOfAnElementHoldsCracksUp) {
               ElementsAre(AllOf(StartsWith("/Peridynamics/Characteristic Length: 0.2 is 0.20 of an element"),
                                 HasSubstr("(for which the critical stretch makes up)"))));
   input.dimension = 3;
-  EXPECT_THAT(advice(input, 1.), IsEmpty());  // not measured
+  EXPECT_THAT(advice(input, 1.), IsEmpty());  // little is held up there
   input.dimension = 2;
   input.calibration = Calibration::analytic;
   EXPECT_THAT(advice(input, 1.)[0], Not(HasSubstr("makes up")));

@@ -18,8 +18,9 @@ double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffn
 template <int dim>
 double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
 
-/// Whether a case's critical stretch and fracture energy make up for the lattice's resistance. In three dimensions, and
-/// with other than two points per direction, the resistance has not been measured for all policies. Local.
+/// Whether a case's critical stretch and fracture energy make up for the lattice's resistance. In three dimensions it
+/// is small against the weakness of free faces (tests/verification/fracture_3d.csv); with other than two points per
+/// direction it has not been measured for all policies. Local.
 bool is_calibrated_to_mesh(const Case& input);
 
 /// If the case is to be, divides the critical stretch by the lattice's resistance, so that a crack runs at
