@@ -151,9 +151,9 @@ class Body {
   std::vector<char> cut_by_pre_crack_;       ///< per local element
   std::vector<morphing::ElementClass> classes_;
   std::vector<char> discontinuous_, flagged_;
-  std::unique_ptr<discretization::DofMap<dim>> dofs_,
-      old_dofs_;                                      ///< of this topology, and until assembly the last one's
-  std::vector<operators::FacingSides> facing_sides_;  ///< that may be crack faces, in this topology
+  std::unique_ptr<discretization::DofMap<dim>> dofs_;
+  std::unique_ptr<discretization::DofMap<dim>> old_dofs_;  ///< of the topology before, until this one is assembled
+  std::vector<operators::FacingSides> facing_sides_;       ///< that may be crack faces, in this topology
   Teuchos::RCP<operators::MatrixFreeStiffness<dim>> stiffness_;
   // The same as a matrix, and the short-range matrix; null if neither operator nor preconditioner needs them.
   std::unique_ptr<operators::CoupledStiffness<dim>> matrix_, short_range_;
