@@ -9,6 +9,17 @@
 
 namespace perimorph::operators {
 
+namespace {
+
+/// std::lower_bound, for the few columns of a row: counting has no branches, so the compiler makes vectors of it.
+int lower_bound(const int* begin, const int* end, int value) {
+  int n_smaller = 0;
+  for (; begin != end; ++begin) n_smaller += static_cast<int>(*begin < value);
+  return n_smaller;
+}
+
+}  // namespace
+
 template <int dim>
 CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const Supports<dim>& supports,
                                         const BondSelection& selection, Teuchos::RCP<const PointBasis<dim>> basis)
@@ -144,8 +155,7 @@ void CoupledStiffness<dim>::add_block(int row, int column, const Block& block) {
   const int* begin = columns_.data() + first_[row];
   const int* end = columns_.data() + first_[row + 1];
   const std::size_t width = static_cast<std::size_t>(end - begin) * dim;
-  double* target =
-      values_ + first_[row] * dim * dim + static_cast<std::size_t>(std::lower_bound(begin, end, column) - begin) * dim;
+  double* target = values_ + first_[row] * dim * dim + lower_bound(begin, end, column) * dim;
   for (int c = 0; c < dim; ++c) {
     for (int d = 0; d < dim; ++d) {
       if (!fixed_[row * dim + c] && !fixed_[column * dim + d]) target[c * width + d] += block(c, d);
