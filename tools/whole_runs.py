@@ -155,22 +155,28 @@ def print_cubes(folder, scale):
 
 
 def print_operators(folder, scale):
-    """Memory of the operator in its two forms."""
+    """Memory and time of the operator in its three forms."""
     rows = []
+    forms = ("CRS", "Matrix-Free", "On-the-Fly")
     for policy, unknowns in zip(POLICIES, (1e4, 1.2e4)):
         n = side_for(scale * unknowns, "all peridynamic", policy, dimension=3)
         case = cube(folder, n, "all peridynamic", policy)
-        told = {form: operator_of(case, form) for form in ("CRS", "Matrix-Free")}
-        unknowns, crs, free = told["CRS"][0], told["CRS"][1], told["Matrix-Free"][1]
-        rows.append([policy, f"{n}^3", unknowns, crs, free, f"1/{float(crs) / float(free):.1f}"])
-    print_table("Memory of the operator, all-peridynamic cubes, horizon 3 elements. Target: a tenth.",
-                ["discontinuous elements", "elements", "unknowns", "CRS [MB]", "matrix-free [MB]", "ratio"], rows)
+        for form in forms:
+            setting = f"Solver/Operator={form}"
+            unknowns, bonds, memory = memory_of(check(case, [setting]))
+            crs = memory if form == "CRS" else crs
+            one = run(case, os.path.join(folder, f"cube-{form}"), 1, settings=[setting])
+            rows.append([policy, f"{n}^3", unknowns, form, bonds, memory, f"1/{crs / memory:.1f}",
+                         f"{1000 * one.phases['CG'] / int(one.history[-1]['cg_iterations']):.1f}"])
+    print_table("All-peridynamic cubes, horizon 3 elements, 1 rank. Target for the operator: a tenth of CRS.",
+                ["discontinuous elements", "elements", "unknowns", "Operator", "bonds [MB]", "operator [MB]", "/ CRS",
+                 "a CG iteration [ms]"], rows)
 
 
-def operator_of(case, form):
-    """Unknowns, and MB of the operator, as perimorph check tells."""
-    told = check(case, [f"Solver/Operator={form}"])
-    return re.search(r"(\d+) unknowns", told).group(1), re.search(r"(\d+) MB for the operator", told).group(1)
+def memory_of(told):
+    """Unknowns, MB of bonds and of the operator, of what perimorph check tells."""
+    return [int(re.search(pattern, told).group(1))
+            for pattern in (r"(\d+) unknowns", r"(\d+) MB for bonds", r"(\d+) MB for the operator")]
 
 
 def print_three_dimensions(folder, scale):

@@ -22,6 +22,7 @@ struct Setup {
   bool whole_zone_discontinuous = false;
   std::vector<discretization::PrescribedComponent> prescribed = {};
   std::vector<mesh::CrackFacet<2>> pre_cracks = {};
+  bonds::Stiffness kept = bonds::Stiffness::stored;
 };
 
 struct CoupledBody {
@@ -53,7 +54,7 @@ struct CoupledBody {
                                    setup.horizon)),
         points(mesh),
         alpha(mesh, points, morphing::Profile::linear),
-        bonds(mesh, points, mesh::active_elements(mesh), c0, setup.pre_cracks),
+        bonds(mesh, points, mesh::active_elements(mesh), c0, setup.pre_cracks, setup.kept),
         elasticity(e0, setup.policy),
         dirichlet(*comm, mesh, setup.prescribed),
         classes(mesh.n_elements(), morphing::ElementClass::fe),

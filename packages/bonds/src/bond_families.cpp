@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "perimorph/materials/decay.hpp"
+
 namespace perimorph::bonds {
 
 using base::Point;
@@ -10,11 +12,12 @@ using base::Point;
 template <int dim>
 BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                 std::vector<char> active, const materials::Micromodulus& micromodulus,
-                                const std::vector<mesh::CrackFacet<dim>>& pre_cracks)
+                                const std::vector<mesh::CrackFacet<dim>>& pre_cracks, Stiffness kept)
     : mesh_(mesh),
       points_(points),
       active_(std::move(active)),
       micromodulus_(micromodulus),
+      kept_(kept),
       visibility_(mesh, pre_cracks),
       searched_(mesh.n_elements(), 0),
       pairs_of_(mesh.n_elements()),
@@ -64,16 +67,25 @@ void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibi
       if (c0 == 0.) continue;
       if (Visibility<dim>::blocks(between, points_.position(i), points_.position(j))) continue;
       ends_.push_back(static_cast<std::uint16_t>(qa * elements::max_points + qb));
-      stiffness_.push_back(static_cast<float>(c0 * points_.weight(i) * points_.weight(j)));
+      if (!computes_stiffness()) {
+        stiffness_.push_back(static_cast<float>(c0 * points_.weight(i) * points_.weight(j)));
+      }
       family_volume_[i] += points_.weight(j);
       family_volume_[j] += points_.weight(i);
     }
   }
-  if (stiffness_.size() == first_bond_.back()) return;
+  if (n_bonds() == first_bond_.back()) return;
   pairs_of_[a].push_back(n_pairs());
   if (b != a) pairs_of_[b].push_back(n_pairs());
   pairs_.push_back({a, b});
-  first_bond_.push_back(stiffness_.size());
+  first_bond_.push_back(n_bonds());
+}
+
+template <int dim>
+double BondFamilies<dim>::stiffness_on_the_fly(int first_point, int second_point) const {
+  const double squared = (points_.position(second_point) - points_.position(first_point)).squaredNorm();
+  const auto decay = materials::decay(materials::EightValues::Constant(squared), micromodulus_.characteristic_length);
+  return micromodulus_.tau0 * decay[0] * points_.weight(first_point) * points_.weight(second_point);
 }
 
 template <int dim>

@@ -41,8 +41,8 @@ inline constexpr std::array<Choice<Calibration>, 2> calibrations{
     {{"Analytic", Calibration::analytic}, {"Mesh-Consistent", Calibration::mesh_consistent}}};
 inline constexpr std::array<Choice<PreconditionerMatrix>, 2> preconditioner_matrices{
     {{"Coupled", PreconditionerMatrix::coupled}, {"Short-Range", PreconditionerMatrix::short_range}}};
-inline constexpr std::array<Choice<OperatorForm>, 2> operator_forms{
-    {{"CRS", OperatorForm::crs}, {"Matrix-Free", OperatorForm::matrix_free}}};
+inline constexpr std::array<Choice<OperatorForm>, 3> operator_forms{
+    {{"CRS", OperatorForm::crs}, {"Matrix-Free", OperatorForm::matrix_free}, {"On-the-Fly", OperatorForm::on_the_fly}}};
 inline constexpr std::array<Choice<int>, 3> components{{{"x", 0}, {"y", 1}, {"z", 2, 3}}};
 
 /// All words, or those allowed in one dimension.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "lanes.hpp"
+#include "perimorph/materials/decay.hpp"
 
 namespace perimorph::operators {
 
@@ -25,6 +27,7 @@ template <int dim>
 BondForces<dim>::BondForces(const CoupledModel<dim>& model)
     : model_(model), first_packet_(model.mesh.n_elements(), -1) {
   const auto& bonds = model.bonds;
+  const double root_of_tau0 = std::sqrt(bonds.micromodulus().tau0);
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (bonds.pairs_of(e).empty()) continue;
     first_packet_[e] = static_cast<int>(packets_.size());
@@ -35,6 +38,9 @@ BondForces<dim>::BondForces(const CoupledModel<dim>& model)
         for (int i = 0; i < n_lanes; ++i) positions_.push_back(i < n ? model.points.position(first + i)[c] : 0.);
       }
       for (int i = 0; i < n_lanes; ++i) alpha_.push_back(i < n ? 0.5 * model.alpha(first + i) : 0.);
+      for (int i = 0; i < n_lanes && bonds.computes_stiffness(); ++i) {
+        weights_.push_back(i < n ? root_of_tau0 * model.points.weight(first + i) : 0.);
+      }
     }
   }
   displacements_.resize(positions_.size());
@@ -43,7 +49,7 @@ BondForces<dim>::BondForces(const CoupledModel<dim>& model)
   // Pairs of elements by their first element, each cut into blocks of two packets.
   struct Bond {
     int second, position;  ///< packet, number of the bit
-    float stiffness;
+    float stiffness;       ///< not on the fly
   };
   std::vector<std::vector<int>> pairs_from(model.mesh.n_elements());
   for (int p = 0; p < bonds.n_pairs(); ++p) pairs_from[bonds.pair(p).first].push_back(p);
@@ -54,10 +60,12 @@ BondForces<dim>::BondForces(const CoupledModel<dim>& model)
     for (const int p : pairs_from[e]) {
       for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
         if (bonds.broken(b)) continue;
-        const int i = bonds.first_end(b), j = bonds.second_end(b);
-        from_packet[i / n_lanes].push_back({first_packet_[bonds.pair(p).second] + j / n_lanes,
-                                            i % n_lanes * n_lanes + j % n_lanes,
-                                            static_cast<float>(bonds.stiffness(b))});
+        const int i = bonds.first_end(b), j = bonds.second_end(b), other = bonds.pair(p).second;
+        const double stiffness = bonds.computes_stiffness()
+                                     ? 0.
+                                     : bonds.stiffness(b, model.points.first(e) + i, model.points.first(other) + j);
+        from_packet[i / n_lanes].push_back(
+            {first_packet_[other] + j / n_lanes, i % n_lanes * n_lanes + j % n_lanes, static_cast<float>(stiffness)});
       }
     }
     for (auto& list : from_packet) {
@@ -72,7 +80,7 @@ BondForces<dim>::BondForces(const CoupledModel<dim>& model)
           masks_.push_back(0);
         }
         masks_.back() = static_cast<std::uint16_t>(masks_.back() | 1u << bond.position);
-        stiffness_.push_back(bond.stiffness);
+        if (!bonds.computes_stiffness()) stiffness_.push_back(bond.stiffness);
       }
     }
   }
@@ -97,7 +105,7 @@ std::size_t BondForces<dim>::shapes_of(const elements::ReferenceElement<dim>& re
 template <int dim>
 void BondForces<dim>::add(const double* u, double* force) const {
   gather(u);
-  pull();
+  model_.bonds.computes_stiffness() ? pull<true>() : pull<false>();
   spread(force);
 }
 
@@ -119,12 +127,14 @@ void BondForces<dim>::gather(const double* u) const {
 
 /// Two rows of a block at once, each of the bonds from one point of the first packet to the four of the second.
 template <int dim>
+template <bool on_the_fly>
 void BondForces<dim>::pull() const {
+  const double length = model_.bonds.micromodulus().characteristic_length;
   std::fill(forces_.begin(), forces_.end(), 0.);
   const float* stiffness = stiffness_.data();
   for (std::size_t a = 0; a < packets_.size(); ++a) {
     std::array<std::array<RowPair, dim>, n_lanes / 2> x_a, u_a, on_a;
-    std::array<RowPair, n_lanes / 2> alpha_a;
+    std::array<RowPair, n_lanes / 2> alpha_a, weights_a;
     for (int rows = 0; rows < n_lanes / 2; ++rows) {
       for (int c = 0; c < dim; ++c) {
         x_a[rows][c] = first_ends(positions_.data() + (a * dim + c) * n_lanes + 2 * rows);
@@ -132,6 +142,7 @@ void BondForces<dim>::pull() const {
         on_a[rows][c].setZero();
       }
       alpha_a[rows] = first_ends(alpha_.data() + a * n_lanes + 2 * rows);
+      if constexpr (on_the_fly) weights_a[rows] = first_ends(weights_.data() + a * n_lanes + 2 * rows);
     }
     for (std::size_t block = first_block_[a]; block < first_block_[a + 1]; ++block) {
       const std::size_t b = second_[block];
@@ -144,15 +155,22 @@ void BondForces<dim>::pull() const {
       const RowPair alpha = twice(alpha_.data() + b * n_lanes);
       for (int rows = 0; rows < n_lanes / 2; ++rows) {
         const unsigned mask = masks_[block] >> (rows * 2 * n_lanes) & 255u;
-        const RowPair k = expand(mask, stiffness) * (alpha + alpha_a[rows]);
-        stiffness += count_bits(mask);
         std::array<RowPair, dim> xi;
         RowPair pull = RowPair::Zero();
         for (int c = 0; c < dim; ++c) {
           xi[c] = x[c] - x_a[rows][c];
           pull += xi[c] * (u[c] - u_a[rows][c]);
         }
-        pull *= k;
+        pull *= alpha + alpha_a[rows];
+        if constexpr (on_the_fly) {
+          RowPair squared = RowPair::Zero();
+          for (int c = 0; c < dim; ++c) squared += xi[c] * xi[c];
+          const RowPair weights = twice(weights_.data() + b * n_lanes) * weights_a[rows];
+          pull *= keep(mask, materials::decay(squared, length)) * weights;
+        } else {
+          pull *= expand(mask, stiffness);
+          stiffness += count_bits(mask);
+        }
         for (int c = 0; c < dim; ++c) {
           on_a[rows][c] -= pull * xi[c];
           on_b[c] += pull * xi[c];
@@ -194,17 +212,21 @@ void BondForces<dim>::subtract(const std::vector<std::size_t>& broken) {
     const auto [first, second] = model_.bonds.pair(model_.bonds.pair_of(bond));
     const int i = model_.bonds.first_end(bond), j = model_.bonds.second_end(bond);
     const int a = first_packet_[first] + i / n_lanes, b = first_packet_[second] + j / n_lanes;
+    const unsigned its_bit = bit(i % n_lanes, j % n_lanes);
     std::size_t block = first_block_[a], position = first_bond_[a];
     for (; second_[block] != b; ++block) position += count_bits(masks_[block]);
-    position += count_bits(masks_[block] & (bit(i % n_lanes, j % n_lanes) - 1u));
-    stiffness_[position] = 0.F;
+    if (model_.bonds.computes_stiffness()) {
+      masks_[block] = static_cast<std::uint16_t>(masks_[block] & ~its_bit);
+    } else {
+      stiffness_[position + count_bits(masks_[block] & (its_bit - 1u))] = 0.F;
+    }
   }
 }
 
 template <int dim>
 std::size_t BondForces<dim>::bytes() const {
   const auto size = [](const auto& vector) { return vector.size() * sizeof(vector[0]); };
-  return size(packets_) + size(positions_) + size(alpha_) + size(first_packet_) + size(first_block_) +
+  return size(packets_) + size(positions_) + size(alpha_) + size(weights_) + size(first_packet_) + size(first_block_) +
          size(first_bond_) + size(second_) + size(masks_) + size(stiffness_) + size(displacements_) + size(forces_);
 }
 

@@ -25,6 +25,17 @@ inline RowPair expand(unsigned mask, const float* packed) {
   return lanes;
 }
 
+/// The lanes whose bit is set in the mask; zero elsewhere.
+inline RowPair keep(unsigned mask, const RowPair& lanes) {
+  RowPair kept;
+#ifdef __AVX512VL__
+  _mm512_store_pd(kept.data(), _mm512_maskz_load_pd(static_cast<__mmask8>(mask), lanes.data()));
+#else
+  for (int lane = 0; lane < 2 * n_lanes; ++lane) kept[lane] = (mask >> lane & 1u) != 0 ? lanes[lane] : 0.;
+#endif
+  return kept;
+}
+
 /// The same four numbers in both halves. (Written as two halves it would wait for its own stores.)
 inline RowPair twice(const double* four) {
   RowPair lanes;

@@ -70,7 +70,7 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
       const int qi = bonds.first_end(b), qj = bonds.second_end(b);
       const int i = points.first(first) + qi, j = points.first(second) + qj;
       const auto v = elements::squared<dim>(points.position(j) - points.position(i));
-      const base::Stiffness<dim> term = 0.25 * (alpha_[i] + alpha_[j]) * bonds.stiffness(b) * v * v.transpose();
+      const base::Stiffness<dim> term = 0.25 * (alpha_[i] + alpha_[j]) * bonds.stiffness(b, i, j) * v * v.transpose();
       if (first == element) reduced[qi] -= term / points.weight(i);
       if (second == element) reduced[qj] -= term / points.weight(j);
     }

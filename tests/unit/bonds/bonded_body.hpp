@@ -60,7 +60,11 @@ struct BondedBody {
 
   BondList list() const {
     BondList all;
-    for_each_bond([&](int p, std::size_t b) { all.emplace(global_ends(p, b), bonds.stiffness(b)); });
+    for_each_bond([&](int p, std::size_t b) {
+      const auto [first, second] = bonds.pair(p);
+      const int i = points.first(first) + bonds.first_end(b), j = points.first(second) + bonds.second_end(b);
+      all.emplace(global_ends(p, b), bonds.stiffness(b, i, j));
+    });
     return all;
   }
 };

@@ -4,6 +4,8 @@
 
 #include <functional>
 
+#include "perimorph/materials/decay.hpp"
+
 namespace perimorph::materials {
 namespace {
 
@@ -116,6 +118,28 @@ TEST(FractureEnergy, OfThePapersCasesIsWhatTheirCriticalStretchesMean) {
   for (const auto& c : {disk, plate, beam, double_notch}) {
     const Micromodulus c0 = calibrate<2>(ElasticModel::plane_stress, c.youngs_modulus, c.length, 15. * c.length);
     EXPECT_NEAR(fracture_energy<2>(c0, c.stretch), c.energy, 0.01 * c.energy);  // printed with two or three digits
+  }
+}
+
+// Rounding r/l to single precision changes exp(-r/l) by r/l exp(-r/l) 6e-8; the series and its sums add some roundings.
+TEST(Decay, IsTheExponentialToSinglePrecision) {
+  constexpr double length = 0.3;
+  for (int i = 0; i < 4000; i += 8) {
+    EightValues distances;
+    for (int lane = 0; lane < 8; ++lane) distances[lane] = 0.01 * (i + lane);  // to 133 lengths, where it is 0
+    const EightValues actual = decay(distances.square(), length);
+    for (int lane = 0; lane < 8; ++lane) {
+      EXPECT_NEAR(actual[lane], std::exp(-distances[lane] / length), 3e-7) << distances[lane];
+    }
+  }
+}
+
+TEST(Decay, IsTheSameToTheBitInEveryPlace) {
+  EightValues squared;
+  squared << 0., 0.1, 0.2, 0.3, 0.5, 0.8, 1.3, 2.1;
+  const EightValues together = decay(squared, 0.4);
+  for (int lane = 0; lane < 8; ++lane) {
+    EXPECT_EQ(decay(EightValues::Constant(squared[lane]), 0.4)[0], together[lane]);
   }
 }
 

@@ -24,13 +24,14 @@ struct Block {
   materials::Micromodulus c0 = materials::calibrate<3>(model, youngs_modulus, 0.3, horizon);
   elements::MaterialPoints<3> points{mesh};
   morphing::MorphingField<3> alpha{mesh, points, morphing::Profile::linear};
-  bonds::BondFamilies<3> bonds{mesh, points, mesh::active_elements(mesh), c0, {}};
+  bonds::BondFamilies<3> bonds;
   operators::MorphedStiffness<3> elasticity{e0, operators::PeridynamicStiffness::kept};
   discretization::Dirichlet<3> dirichlet{*comm, mesh, {}};
   std::vector<char> continuous = std::vector<char>(mesh.n_elements(), 0);
   discretization::DofMap<3> dofs{comm, mesh, discretization::corner_exchange(*comm, mesh), continuous};
 
-  Block() {
+  explicit Block(bonds::Stiffness kept = bonds::Stiffness::stored)
+      : bonds(mesh, points, mesh::active_elements(mesh), c0, {}, kept) {
     bonds.extend(alpha.add({morphing::Zone<3>::box(Point3::Zero(), Point3(4., 4., 1.), 2.)}));
     elasticity.update(mesh, points, bonds, alpha,
                       std::vector<morphing::ElementClass>(mesh.n_elements(), morphing::ElementClass::morph),
@@ -51,7 +52,7 @@ Eigen::MatrixXd dense(const Tpetra::CrsMatrix<double>& matrix) {
   return k;
 }
 
-TEST(StiffnessIn3d, IsSymmetricAndPositiveWithSixRigidModesAtZeroEnergy) {
+TEST(BlockIn3d, IsSymmetricAndPositiveWithSixRigidModesAtZeroEnergy) {
   const Block body;
   ASSERT_GT(body.bonds.n_bonds(), 9000u);
   const operators::CoupledStiffness<3> stiffness(body.coupled(), body.supports());
@@ -64,8 +65,10 @@ TEST(StiffnessIn3d, IsSymmetricAndPositiveWithSixRigidModesAtZeroEnergy) {
   EXPECT_GT(eigenvalues[6], 1e-4 * eigenvalues.maxCoeff());
 }
 
-TEST(StiffnessIn3d, IsTheSameWithoutAMatrix) {
-  const Block body;
+class StiffnessIn3d : public ::testing::TestWithParam<bonds::Stiffness> {};
+
+TEST_P(StiffnessIn3d, IsTheSameWithoutAMatrix) {
+  const Block body(GetParam());
   const operators::CoupledStiffness<3> stiffness(body.coupled(), body.supports());
   const operators::MatrixFreeStiffness<3> matrix_free(body.coupled(), body.supports());
   Eigen::VectorXd u(3 * body.dofs.n_nodes());
@@ -76,6 +79,9 @@ TEST(StiffnessIn3d, IsTheSameWithoutAMatrix) {
   const Eigen::VectorXd expected = dense(*stiffness.matrix()) * u;
   EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(force.data(), u.size()) - expected).norm(), 1e-13 * expected.norm());
 }
+
+INSTANTIATE_TEST_SUITE_P(Bonds, StiffnessIn3d,
+                         ::testing::Values(bonds::Stiffness::stored, bonds::Stiffness::on_the_fly));
 
 }  // namespace
 }  // namespace perimorph::tests

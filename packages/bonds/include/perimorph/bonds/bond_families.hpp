@@ -15,6 +15,9 @@ struct ElementPair {
   int first, second;  ///< local elements
 };
 
+/// Where the stiffness of a bond comes from: memory, or its points.
+enum class Stiffness { stored, on_the_fly };
+
 /// All bonds that touch this rank's active elements and of which an end has alpha > 0. They are kept by pairs of
 /// elements: bonds of pair p are first_bond(p) ... first_bond(p+1)-1. The broken set lives here.
 template <int dim>
@@ -25,13 +28,14 @@ class BondFamilies {
   /// Local. The arguments must outlive this.
   /// @param active elements around the nodes that this rank owns (mesh::active_elements)
   BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, std::vector<char> active,
-               const materials::Micromodulus& micromodulus, const std::vector<mesh::CrackFacet<dim>>& pre_cracks);
+               const materials::Micromodulus& micromodulus, const std::vector<mesh::CrackFacet<dim>>& pre_cracks,
+               Stiffness kept = Stiffness::stored);
 
   /// Adds the bonds of elements that have come to carry bonds; those already known are passed over. Local.
   void extend(const std::vector<int>& elements);
 
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
-  Bond n_bonds() const { return stiffness_.size(); }
+  Bond n_bonds() const { return ends_.size(); }
   const ElementPair& pair(int p) const { return pairs_[p]; }
   Bond first_bond(int p) const { return first_bond_[p]; }
   const std::vector<int>& pairs_of(int element) const { return pairs_of_[element]; }
@@ -40,14 +44,18 @@ class BondFamilies {
   /// Points at the bond's ends, counted within their elements.
   int first_end(Bond b) const { return (ends_[b] & ~broken_bit) / elements::max_points; }
   int second_end(Bond b) const { return (ends_[b] & ~broken_bit) % elements::max_points; }
-  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; rounded
-  /// to single precision, so that every form of the operator has the same bonds.
-  double stiffness(Bond b) const { return stiffness_[b]; }
+  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; in single
+  /// precision, so that every form of the operator has the same bonds.
+  double stiffness(Bond b, int first_point, int second_point) const {
+    return computes_stiffness() ? stiffness_on_the_fly(first_point, second_point) : stiffness_[b];
+  }
+  bool computes_stiffness() const { return kept_ == Stiffness::on_the_fly; }
+  const materials::Micromodulus& micromodulus() const { return micromodulus_; }
   bool broken(Bond b) const { return (ends_[b] & broken_bit) != 0; }
   void set_broken(int pair, Bond b);
   int pair_of(Bond b) const;
 
-  /// Of memory, most of it 6 bytes a bond.
+  /// Of memory, most of it 6 bytes a bond; 2 if stiffness is computed on the fly.
   std::size_t bytes() const;
 
   /// The bond between two points of different elements, each told by element and number within it; n_bonds() if this
@@ -81,6 +89,7 @@ class BondFamilies {
   const elements::MaterialPoints<dim>& points_;
   std::vector<char> active_;
   materials::Micromodulus micromodulus_;
+  Stiffness kept_;
   Visibility<dim> visibility_;
   std::vector<base::Point<dim>> centroids_;
   std::vector<double> radii_;
@@ -93,10 +102,11 @@ class BondFamilies {
   std::vector<std::vector<int>> pairs_of_;
   static constexpr unsigned broken_bit = 1u << 15;  ///< of ends_, the rest of which is below 27 * 27
   std::vector<std::uint16_t> ends_;
-  std::vector<float> stiffness_;
+  std::vector<float> stiffness_;  ///< empty if computed on the fly
   std::vector<double> family_volume_, lost_volume_;
   std::vector<char> damaged_;
 
+  double stiffness_on_the_fly(int first_point, int second_point) const;
   template <class Visit>
   void for_each_overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
                               const std::vector<morphing::ElementClass>& classes, Visit visit) const;

@@ -19,7 +19,7 @@ enum class PreCrackShape { polyline, polygon, disc };  ///< the first in 2D, the
 using MorphingProfile = morphing::Profile;
 enum class DiscontinuousElements { on_damage, whole_zone };
 enum class Calibration { analytic, mesh_consistent };  ///< of the critical stretch and the fracture energy
-enum class OperatorForm { crs, matrix_free };
+enum class OperatorForm { crs, matrix_free, on_the_fly };
 enum class PreconditionerMatrix { coupled, short_range };
 
 /// A first peridynamic zone: alpha = 1 inside, falling to 0 over the rim. Lengths in the mesh's unit.

@@ -10,7 +10,8 @@ namespace perimorph::operators {
 
 /// B^T K_bonds B u without a matrix: gather displacements to the points, pull along every intact bond, spread the
 /// forces to the nodes. Four points of an element make a packet; the bonds between two packets are a mask of 16 bits
-/// and one single-precision number per bond, so that few bytes stream past per bond.
+/// and one single-precision number per bond, so that few bytes stream past per bond. If the bonds compute their
+/// stiffness on the fly, the mask is all: a tenth of the bytes for twice the arithmetic.
 template <int dim>
 class BondForces {
  public:
@@ -23,7 +24,6 @@ class BondForces {
   /// Takes newly broken bonds out. Local.
   void subtract(const std::vector<std::size_t>& broken);
 
-  std::size_t n_bonds() const { return stiffness_.size(); }
   std::size_t bytes() const;  ///< of memory
 
  private:
@@ -37,18 +37,20 @@ class BondForces {
   std::vector<Packet> packets_;
   std::vector<double> positions_;  ///< per packet: (dim, 4)
   std::vector<double> alpha_;      ///< per packet: (4), halved
+  std::vector<double> weights_;    ///< per packet: (4), times sqrt(tau0); on the fly only
   std::vector<int> first_packet_;  ///< per element, -1 without bonds
 
   // Blocks of bonds, from each packet to packets that come with it in a pair.
   std::vector<std::size_t> first_block_, first_bond_;  ///< per packet
   std::vector<int> second_;                            ///< per block: the other packet
   std::vector<std::uint16_t> masks_;                   ///< per block: bit 4 i + j is the bond from point i to point j
-  std::vector<float> stiffness_;                       ///< c0 w w of each bond; zero if it has broken since
+  std::vector<float> stiffness_;  ///< c0 w w of each bond, zero if it has broken since; empty on the fly
 
   mutable std::vector<double> displacements_, forces_;  ///< per packet: (dim, 4)
 
   std::size_t shapes_of(const elements::ReferenceElement<dim>& reference, int first_point);
   void gather(const double* u) const;
+  template <bool on_the_fly>
   void pull() const;
   void spread(double* force) const;
 };

@@ -18,7 +18,7 @@ struct CoupledModel {
 
   /// Stiffness of an intact bond's spring, c0 (alpha(x) + alpha(p)) / 2 w_x w_p  [WHL19, eq. 15, 21].
   double spring(std::size_t bond, int first_point, int second_point) const {
-    return bonds.stiffness(bond) * 0.5 * (alpha(first_point) + alpha(second_point));
+    return bonds.stiffness(bond, first_point, second_point) * 0.5 * (alpha(first_point) + alpha(second_point));
   }
 };
 
