@@ -157,26 +157,22 @@ def print_cubes(folder, scale):
 def print_operators(folder, scale):
     """Memory and time of the operator in its three forms."""
     rows = []
-    forms = ("CRS", "Matrix-Free", "On-the-Fly")
-    for policy, unknowns in zip(POLICIES, (1e4, 1.2e4)):
-        n = side_for(scale * unknowns, "all peridynamic", policy, dimension=3)
+    for policy, size in zip(POLICIES, (1e4, 1.2e4)):
+        n = side_for(scale * size, "all peridynamic", policy, dimension=3)
         case = cube(folder, n, "all peridynamic", policy)
-        for form in forms:
-            setting = f"Solver/Operator={form}"
-            unknowns, bonds, memory = memory_of(check(case, [setting]))
-            crs = memory if form == "CRS" else crs
-            one = run(case, os.path.join(folder, f"cube-{form}"), 1, settings=[setting])
-            rows.append([policy, f"{n}^3", unknowns, form, bonds, memory, f"1/{crs / memory:.1f}",
-                         f"{1000 * one.phases['CG'] / int(one.history[-1]['cg_iterations']):.1f}"])
+        for form in ("CRS", "Matrix-Free", "On-the-Fly"):
+            setting = [f"Solver/Operator={form}"]
+            told = check(case, setting)
+            unknowns, bonds, memory = (int(re.search(r"(\d+) " + thing, told).group(1))
+                                       for thing in ("unknowns", "MB for bonds", "MB for the operator"))
+            of_crs = memory if form == "CRS" else of_crs
+            one = run(case, os.path.join(folder, f"operator-{form}"), settings=setting)
+            iteration = 1000 * one.phases["CG"] / int(one.history[-1]["cg_iterations"])
+            rows.append([policy, f"{n}^3", str(unknowns), form, str(bonds), str(memory), f"1/{of_crs / memory:.1f}",
+                         f"{iteration:.1f}"])
     print_table("All-peridynamic cubes, horizon 3 elements, 1 rank. Target for the operator: a tenth of CRS.",
                 ["discontinuous elements", "elements", "unknowns", "Operator", "bonds [MB]", "operator [MB]", "/ CRS",
-                 "a CG iteration [ms]"], rows)
-
-
-def memory_of(told):
-    """Unknowns, MB of bonds and of the operator, of what perimorph check tells."""
-    return [int(re.search(pattern, told).group(1))
-            for pattern in (r"(\d+) unknowns", r"(\d+) MB for bonds", r"(\d+) MB for the operator")]
+                 "CG iteration [ms]"], rows)
 
 
 def print_three_dimensions(folder, scale):
