@@ -161,16 +161,16 @@ void BondForces<dim>::pull() const {
           xi[c] = x[c] - x_a[rows][c];
           pull += xi[c] * (u[c] - u_a[rows][c]);
         }
-        pull *= alpha + alpha_a[rows];
+        RowPair k;
         if constexpr (on_the_fly) {
           RowPair squared = RowPair::Zero();
           for (int c = 0; c < dim; ++c) squared += xi[c] * xi[c];
-          const RowPair weights = twice(weights_.data() + b * n_lanes) * weights_a[rows];
-          pull *= keep(mask, materials::decay(squared, length)) * weights;
+          k = keep(mask, materials::decay(squared, length)) * (twice(weights_.data() + b * n_lanes) * weights_a[rows]);
         } else {
-          pull *= expand(mask, stiffness);
+          k = expand(mask, stiffness);
           stiffness += count_bits(mask);
         }
+        pull *= k * (alpha + alpha_a[rows]);
         for (int c = 0; c < dim; ++c) {
           on_a[rows][c] -= pull * xi[c];
           on_b[c] += pull * xi[c];
