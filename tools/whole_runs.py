@@ -6,6 +6,8 @@ import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 from cases import TOOLS, check, make_mesh, run
 from squares import POLICIES, cube, side_for, square
@@ -27,6 +29,19 @@ def measured(case, folder, ranks, **options):
     name = os.path.splitext(os.path.basename(case))[0]
     print(f"{name} on {ranks} rank{'s' if ranks > 1 else ''}", file=sys.stderr)
     return run(case, os.path.join(folder, f"{name}-{ranks}"), ranks, **options)
+
+
+def two_at_once(case, folder):
+    """The slower of two runs on one rank each, started together. Nothing joins them: two ranks cannot be much faster."""
+    with ThreadPoolExecutor() as pool:
+        return max(pool.map(lambda copy: run(case, os.path.join(folder, f"copy-{copy}")), range(2)),
+                   key=lambda one: one.solving)
+
+
+def fastest(run_of, choices):
+    """For each choice the one of three runs that set up and solved fastest. Choices take turns: a machine's pace changes."""
+    rounds = [[run_of(choice) for choice in choices] for _ in range(3)]
+    return [min(runs, key=lambda one: one.solving) for runs in zip(*rounds)]
 
 
 def iterations(last, before):
@@ -54,7 +69,8 @@ def print_iterations(folder, scale):
 def print_zone(folder, scale):
     """What a small peridynamic zone costs."""
     n = side_for(1e6 * scale)
-    runs = {model: measured(square(folder, n, model), folder, 2) for model in ("FE only", "hybrid")}
+    models = ("FE only", "hybrid")
+    runs = dict(zip(models, fastest(lambda model: measured(square(folder, n, model), folder, 2), models)))
     finite = runs["FE only"]
     rows = []
     for model, one in runs.items():
@@ -63,8 +79,8 @@ def print_zone(folder, scale):
                      *(f"{phases[p]:.2f}" for p in ("search", "assemble", "preconditioner", "CG")),
                      f"{one.solving:.2f}", ratio(one.solving, finite.solving), ratio(one.wall, finite.wall),
                      f"{one.memory:.0f}"])
-    print_table(f"{finite.history[-1]['unknowns']} unknowns, 5 % of the area peridynamic, elastic, 2 ranks; wall seconds. "
-                "Set-up and solve is all but start, reading and writing. Target: 1.5 times FE only.",
+    print_table(f"{finite.history[-1]['unknowns']} unknowns, 5 % of the area peridynamic, elastic, 2 ranks; wall seconds, "
+                "the fastest of three runs. Set-up and solve is all but start, reading and writing. Target: 1.5 times FE only.",
                 ["model", "iterations", "search", "assemble", "preconditioner", "CG", "set-up and solve", "/ FE only",
                  "whole run / FE only", "MB per rank"], rows)
 
@@ -73,15 +89,19 @@ def print_ranks(folder, scale):
     """Speed-up by ranks, and whether they agree."""
     rows = []
     for model, unknowns in (("FE only", 8e5), ("hybrid", 8e5), ("all peridynamic", 2e5)):
-        runs = [measured(square(folder, side_for(scale * unknowns), model), folder, ranks) for ranks in (1, 2, 4)]
+        case = square(folder, side_for(scale * unknowns), model)
+        *runs, copies = fastest(lambda choose: choose(case, folder),
+                                [partial(measured, ranks=ranks) for ranks in (1, 2, 4)] + [two_at_once])
         energies = [float(one.history[-1]["elastic_energy"]) for one in runs]
         rows.append([f"{model}, {runs[0].history[-1]['unknowns']}", *(f"{one.solving:.2f}" for one in runs),
-                     ratio(runs[0].solving, runs[1].solving), ratio(runs[0].wall, runs[1].wall),
+                     ratio(runs[0].solving, runs[1].solving), ratio(2 * runs[0].solving, copies.solving),
+                     ratio(runs[0].wall, runs[1].wall),
                      " ".join(one.history[-1]["cg_iterations"] for one in runs),
                      f"{max(abs(e / energies[0] - 1) for e in energies):.0e}"])
-    print_table("Elastic, wall seconds of set-up and solve on 1, 2 and 4 ranks. Target: 2 ranks 1.7 times faster than 1; "
-                "4 agree.",
-                ["model, unknowns", "1", "2", "4", "1 / 2", "whole run, 1 / 2", "iterations", "energies differ by"], rows)
+    print_table("Elastic, wall seconds of set-up and solve on 1, 2 and 4 ranks, the fastest of three runs. Target: 2 ranks "
+                "1.7 times faster than 1; 4 agree. The machine's own limit: what two runs on one rank, started together, get "
+                "done in the time of one.",
+                ["model, unknowns", "1", "2", "4", "1 / 2", "machine's limit", "whole run, 1 / 2", "iterations", "energies differ by"], rows)
 
 
 def double_notch(folder, name, seeds=None):
