@@ -73,6 +73,18 @@ TEST(HybridPatch, ThreePointsPerDirectionMissUniformStrainByLess) {
   EXPECT_LT(three.rms_strain, 0.9 * two.rms_strain);      // 0.80
 }
 
+/// Bonds then see the mean displacement of an element only. The nodes of regular triangles can have three colours so that
+/// each triangle has one of each: three displacements with the sum zero, one for each colour, strain no bond.
+TEST(HybridPatch, OnePointPerElementDoesNotHoldElementsFromWithin) {
+  const auto strain_error = [](int points) {
+    Specimen specimen = patch<2>(grid({24, 24, 24., 24., Point2::Zero(), 0., true}), 3., 1. / 3., uniaxial);
+    specimen.points_per_direction = points;
+    specimen.seeds = {Zone<2>::ball({12., 12.}, 5., 9.)};
+    return solve<2>(specimen, uniaxial).strain;
+  };
+  EXPECT_GT(strain_error(1), 5. * strain_error(2));  // 52 and 4.3 % of strain
+}
+
 /// Ghost forces fall with horizon / (r2 - r1): here the rim is more than three horizons wide.
 Errors solve_wide_rim(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness, const Gradient& gradient) {
   Specimen specimen = patch<2>(grid({40, 40, 40., 40.}), 3., 0.2, gradient);
