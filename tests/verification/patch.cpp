@@ -73,8 +73,8 @@ TEST(HybridPatch, ThreePointsPerDirectionMissUniformStrainByLess) {
   EXPECT_LT(three.rms_strain, 0.9 * two.rms_strain);      // 0.80
 }
 
-/// Bonds then see the mean displacement of an element only. The nodes of regular triangles can have three colours so that
-/// each triangle has one of each: three displacements with the sum zero, one for each colour, strain no bond.
+/// Bonds then see the mean displacement of an element only. The nodes of regular triangles can have three colours so
+/// that each triangle has one of each: three displacements with the sum zero, one for each colour, strain no bond.
 TEST(HybridPatch, OnePointPerElementDoesNotHoldElementsFromWithin) {
   const auto strain_error = [](int points) {
     Specimen specimen = patch<2>(grid({24, 24, 24., 24., Point2::Zero(), 0., true}), 3., 1. / 3., uniaxial);
