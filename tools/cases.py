@@ -41,9 +41,9 @@ def make_mesh(stem, geometry, *options, dimension=2):
         fail(f"gmsh could not mesh {stem}.geo")
 
 
-class Run(collections.namedtuple("Run", "status wall processor memory history phases")):
+class Run(collections.namedtuple("Run", "status wall processor memory history phases topologies")):
     """Exit status; wall seconds, and processor seconds of all ranks, start and output included; memory in MB of the rank
-    with most; the rows of history.csv; wall seconds of rank 0 by phase."""
+    with most; the rows of history.csv; wall seconds of rank 0 by phase; how often neighbours were searched anew."""
 
     @property
     def solving(self):
@@ -108,6 +108,8 @@ def run(case, output, ranks=1, settings=(), ends=(0,), is_enough=None):
     if status not in ends and not was_enough:
         sys.exit(f"{case}: the run ended with status {status}")
     history = rows_of(output)
-    phases = {row[0]: float(row[1]) for row in Log(output).profile}
+    profile = Log(output).profile
+    phases = {row[0]: float(row[1]) for row in profile}
+    topologies = next((int(row[3]) for row in profile if row[0] == "search"), 0)
     # Of children that have ended, the system keeps the memory of the largest.
-    return Run(status, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, history, phases)
+    return Run(status, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, history, phases, topologies)

@@ -289,7 +289,7 @@ void declare_solver(ParameterList& root) {
       "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
       one_of(words(preconditioner_matrices)));
   solver.set(
-      "Short-Range Cut-Off", 0.5,
+      "Short-Range Cut-Off", 0.52,
       "Longest bond in the short-range matrix, in horizons [-]. Below the distance of points in neighbouring elements "
       "the preconditioner is useless.",
       between(0., 1.));
