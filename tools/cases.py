@@ -41,9 +41,10 @@ def make_mesh(stem, geometry, *options, dimension=2):
         fail(f"gmsh could not mesh {stem}.geo")
 
 
-class Run(collections.namedtuple("Run", "status wall processor memory history phases topologies")):
-    """Exit status; wall seconds, and processor seconds of all ranks, start and output included; memory in MB of the rank
-    with most; the rows of history.csv; wall seconds of rank 0 by phase; how often neighbours were searched anew."""
+class Run(collections.namedtuple("Run", "status wall processor memory total_memory history phases topologies")):
+    """Exit status; wall seconds, and processor seconds of all ranks, start and output included; memory in MiB of the rank
+    with most, and of all ranks, None for a run that did not come to its end; the rows of history.csv; wall seconds of rank 0 by
+    phase; how often neighbours were searched anew."""
 
     @property
     def solving(self):
@@ -108,8 +109,10 @@ def run(case, output, ranks=1, settings=(), ends=(0,), is_enough=None):
     if status not in ends and not was_enough:
         sys.exit(f"{case}: the run ended with status {status}")
     history = rows_of(output)
-    profile = Log(output).profile
-    phases = {row[0]: float(row[1]) for row in profile}
-    topologies = next((int(row[3]) for row in profile if row[0] == "search"), 0)
+    log = Log(output)
+    phases = {row[0]: float(row[1]) for row in log.profile}
+    topologies = next((int(row[3]) for row in log.profile if row[0] == "search"), 0)
+    total_memory = next((float(line.split()[1]) * 1e6 / 2**20 for line in log.summary if line.startswith("memory ")), None)
     # Of children that have ended, the system keeps the memory of the largest.
-    return Run(status, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, history, phases, topologies)
+    return Run(status, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, total_memory,
+               history, phases, topologies)

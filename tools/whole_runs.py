@@ -169,7 +169,7 @@ def print_cubes(folder, scale):
             last, phases = one.history[-1], one.phases
             rows.append([last["unknowns"], iterations(last, before),
                          *(f"{phases[p]:.1f}" for p in ("read", "search", "assemble", "preconditioner", "CG")),
-                         f"{one.solving:.1f}", f"{one.wall:.1f}", f"{2 * one.memory / 1024:.2f}"])
+                         f"{one.solving:.1f}", f"{one.wall:.1f}", f"{one.total_memory / 1024:.2f}"])
             before = last
         print_table(f"Hybrid cubes, 5 % of the volume peridynamic, horizon {horizon:g} elements, elastic, 2 ranks; wall seconds. "
                     "Targets for a million unknowns: 60 s of set-up and solve, 8 GiB, at most 20 % more iterations.",

@@ -7,6 +7,7 @@ import csv
 import os
 import pathlib
 import pty
+import re
 import subprocess
 import sys
 import tempfile
@@ -140,7 +141,12 @@ class Runs(Driver):
                 self.assertGreater(float(rows[2]["broken_bonds"]), 0)
                 self.assertGreater(float(rows[2]["dgfe_elements"]), 0)
                 self.assertGreater(float(rows[2]["unknowns"]), float(rows[1]["unknowns"]))
-                self.assertIn("first in step 3", (self.output / "run.log").read_text())
+                log = (self.output / "run.log").read_text()
+                self.assertIn("first in step 3", log)
+                total, most = map(int, re.search(r"memory +(\d+) MB in all, (\d+) MB on the rank with most", log).groups())
+                self.assertGreaterEqual(most, 10)  # the libraries alone
+                self.assertLessEqual(most, total)
+                self.assertLessEqual(total, ranks * (most + 1))  # both are rounded
 
     def test_reactions_balance_and_are_proportional_until_the_first_break(self):
         self.assertEqual(self.run_case().returncode, 0)

@@ -1,6 +1,7 @@
 #include "perimorph/base/profile.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 namespace perimorph::base {
 
@@ -8,6 +9,12 @@ const char* name(Phase phase) {
   static constexpr std::array<const char*, n_phases> names = {"read",     "search", "assemble", "preconditioner", "CG",
                                                               "residual", "bonds",  "adapt",    "write"};
   return names[static_cast<int>(phase)];
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024. * static_cast<double>(usage.ru_maxrss);
 }
 
 std::string Profile::table() const {

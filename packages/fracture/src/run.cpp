@@ -1,6 +1,5 @@
 #include "perimorph/fracture/run.hpp"
 
-#include <sys/resource.h>
 
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <array>
@@ -154,13 +153,6 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
   }
 }
 
-/// Peak memory of this process so far, [bytes].
-double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024. * static_cast<double>(usage.ru_maxrss);
-}
-
 template <int dim>
 void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk) {
   base::Profile profile;
@@ -185,7 +177,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   }
   for (int e = 0; e < mesh.n_owned_elements; ++e) elements_of_class[static_cast<int>(body.classes()[e])] += 1.;
   std::vector<double> sums(elements_of_class.begin(), elements_of_class.end());
-  sums.push_back(peak_memory());
+  sums.push_back(base::peak_memory());
   double n_points = 0.;  // with bonds; those on several ranks count on each, as their memory does
   for (int e = 0; e < mesh.n_elements(); ++e) n_points += model.bonds.pairs_of(e).empty() ? 0 : model.points.count(e);
   sums.insert(sums.end(), {static_cast<double>(model.bonds.n_bonds()), n_points,

@@ -12,6 +12,9 @@ inline constexpr int n_phases = 9;
 
 const char* name(Phase phase);
 
+/// Peak memory of this process so far, [bytes].
+double peak_memory();
+
 /// Wall-clock seconds of this rank per phase. Phases do not nest: time of an inner one is also counted in the outer.
 class Profile {
  public:
