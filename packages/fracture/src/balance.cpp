@@ -7,17 +7,22 @@ namespace perimorph::fracture {
 
 namespace {
 
-/// So many bonds cost as much as a classical element.
-constexpr double bonds_per_element = 20.;
+/// In classical elements: a discontinuous element has nodes of its own, which the preconditioner sees, and bonds.
+template <int dim>
+double cost(bool is_discontinuous, int n_corners, double n_bonds) {
+  constexpr double bonds_per_element = dim == 2 ? 100. : 200.;
+  return (is_discontinuous ? n_corners : 1) + n_bonds / bonds_per_element;
+}
 
 template <int dim>
 std::vector<double> own_costs(const Body<dim>& body) {
   const auto model = body.model();
-  std::vector<double> costs(body.mesh().n_owned_elements, 1.);
+  std::vector<double> costs(body.mesh().n_owned_elements);
   for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
     std::size_t n_bonds = 0;
     for (const int p : model.bonds.pairs_of(e)) n_bonds += model.bonds.first_bond(p + 1) - model.bonds.first_bond(p);
-    costs[e] += 0.5 * static_cast<double>(n_bonds) / bonds_per_element;  // the other half is the other element's
+    // The other half is the other element's.
+    costs[e] = cost<dim>(body.is_discontinuous(e), body.mesh().n_corners(e), 0.5 * static_cast<double>(n_bonds));
   }
   return costs;
 }
@@ -25,7 +30,8 @@ std::vector<double> own_costs(const Body<dim>& body) {
 }  // namespace
 
 template <int dim>
-std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<dim>& problem) {
+std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+                                   DiscontinuousElements discontinuous) {
   std::vector<double> costs(whole.n_elements(), 1.);
   for (int e = 0; e < whole.n_elements(); ++e) {
     const auto center = mesh::centroid(whole, e);
@@ -40,7 +46,8 @@ std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<d
     const double n_points = whole.n_corners(e);  // as many as corners, about
     // A square or cube with this radius: the horizon's ball holds 1.6 or 2.7 times (horizon / radius)^dim of them.
     const double n_partners = (dim == 2 ? 1.6 : 2.7) * std::pow(problem.micromodulus.horizon / radius, dim);
-    costs[e] += 0.5 * n_points * n_points * n_partners / bonds_per_element;
+    costs[e] = cost<dim>(discontinuous == DiscontinuousElements::whole_zone, whole.n_corners(e),
+                         0.5 * n_points * n_points * n_partners);
   }
   return costs;
 }
@@ -63,11 +70,11 @@ Load measure_load(const base::Comm& comm, const Body<dim>& body) {
   return {total, base::max(comm, own) * comm.getSize() / total};
 }
 
-template std::vector<double> expected_costs<2>(const mesh::Mesh<2>&, const Problem<2>&);
+template std::vector<double> expected_costs<2>(const mesh::Mesh<2>&, const Problem<2>&, DiscontinuousElements);
 template std::vector<double> element_costs<2>(const base::Comm&, const Body<2>&);
 template Load measure_load<2>(const base::Comm&, const Body<2>&);
 
-template std::vector<double> expected_costs<3>(const mesh::Mesh<3>&, const Problem<3>&);
+template std::vector<double> expected_costs<3>(const mesh::Mesh<3>&, const Problem<3>&, DiscontinuousElements);
 template std::vector<double> element_costs<3>(const base::Comm&, const Body<3>&);
 template Load measure_load<3>(const base::Comm&, const Body<3>&);
 

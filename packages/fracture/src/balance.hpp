@@ -9,7 +9,8 @@ namespace perimorph::fracture {
 /// What each element of the whole mesh will cost, before there are bonds: by how many it is likely to have. The mesh is
 /// whole on rank 0, elsewhere the result is empty. Local.
 template <int dim>
-std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<dim>& problem);
+std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+                                   DiscontinuousElements discontinuous);
 
 /// What each element costs in an iteration, in classical elements, by its global id; on rank 0, empty elsewhere.
 /// Collective.

@@ -440,8 +440,8 @@ void Results<dim>::summarize(const Body<dim>& body) {
   voice_.log->info("linear solves    {} with {} iterations; {} topologies", total_solves_, total_iterations_,
                    counts.topologies);
   const double memory = base::peak_memory();
-  voice_.log->info("memory           {:.0f} MB in all, {:.0f} MB on the rank with most", base::sum(*comm_, memory) / 1e6,
-                   base::max(*comm_, memory) / 1e6);
+  voice_.log->info("memory           {:.0f} MB in all, {:.0f} MB on the rank with most",
+                   base::sum(*comm_, memory) / 1e6, base::max(*comm_, memory) / 1e6);
   for (const auto& r : reactions_) {
     if (std::abs(r.peak) > 0.) {
       voice_.log->info("reaction {:<24} peak {:>12.6g} in step {}, last {:>12.6g}", r.column, r.peak, r.peak_increment,

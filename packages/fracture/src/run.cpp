@@ -1,6 +1,5 @@
 #include "perimorph/fracture/run.hpp"
 
-
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <array>
 #include <cmath>
@@ -129,7 +128,7 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
       const auto timer = profile.measure(base::Phase::read);
       auto mesh = read_whole_mesh<dim>(*comm, input, folder);
       checkpoints.identify(mesh);
-      checkpoints.expect_costs(expected_costs(mesh, problem));
+      checkpoints.expect_costs(expected_costs(mesh, problem, input.discontinuous));
       return mesh;
     }();
     const auto distribute = [&] {
@@ -160,7 +159,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   const auto log = base::make_log(*comm, talk == Talk::quiet);
   auto problem = make_problem<dim>(input);
   const auto whole = read_whole_mesh<dim>(*comm, input, folder.path());
-  const auto mesh = distribute_mesh(*comm, whole, problem, expected_costs(whole, problem));
+  const auto mesh = distribute_mesh(*comm, whole, problem, expected_costs(whole, problem, input.discontinuous));
   log->info("{}", listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
