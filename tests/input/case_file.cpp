@@ -71,6 +71,8 @@ TEST_F(CaseFile, DefaultsAreFilledIn) {
   EXPECT_EQ(result.seeds[0].shape, perimorph::fracture::SeedShape::ball);
   EXPECT_EQ(result.growth_inner_radius, 3.);  // 2 horizons of 1.5
   EXPECT_EQ(result.growth_outer_radius, 6.);
+  EXPECT_EQ(result.short_range_cut_off, 0.52 * 1.5);
+  EXPECT_EQ(read(valid_in_3d()).short_range_cut_off, 0.45 * 1.5);
   EXPECT_EQ(result.displacements[0].rate, 0.);
   EXPECT_THAT(result.tractions.at(0).constant, ElementsAre(0., 0.));
   EXPECT_THAT(result.body_force_rate, ElementsAre(0., 0.));

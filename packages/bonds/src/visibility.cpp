@@ -22,6 +22,13 @@ double radius(const mesh::CrackFacet<dim>& facet) {
   return r;
 }
 
+template <class Points>
+auto box_around(const Points& points) {
+  Eigen::AlignedBox<double, Points::value_type::RowsAtCompileTime> box;
+  for (const auto& x : points) box.extend(x);
+  return box;
+}
+
 constexpr double slack = 1e-9;  // relative to bond and facet: a bond through a facet's corner is cut
 
 /// Solves x + t (p - x) = f0 + sum_i s_i (f_i - f0); they meet if t, s_i and 1 - sum s_i are not negative and t <= 1.
@@ -79,9 +86,7 @@ std::vector<mesh::CrackFacet<dim>> Visibility<dim>::near(const base::Point<dim>&
   std::vector<Facet> found;
   for (const int f : tree_->within(center, reach + largest_radius_)) found.push_back(boundary_[f]);
   for (const auto& facet : pre_cracks_) {
-    Eigen::AlignedBox<double, dim> box;
-    for (const auto& corner : facet) box.extend(corner);
-    if (box.squaredExteriorDistance(center) <= reach * reach) found.push_back(facet);
+    if (box_around(facet).squaredExteriorDistance(center) <= reach * reach) found.push_back(facet);
   }
   return found;
 }
@@ -90,7 +95,11 @@ template <int dim>
 std::vector<mesh::CrackFacet<dim>> Visibility<dim>::among(const std::vector<Facet>& facets,
                                                           const std::vector<base::Point<dim>>& points) {
   std::vector<Facet> found;
+  const auto box = box_around(points);
   for (const auto& facet : facets) {
+    const auto facets_box = box_around(facet);
+    const double margin = slack * (box.diagonal().norm() + facets_box.diagonal().norm());  // as in meets()
+    if (box.squaredExteriorDistance(facets_box) > margin * margin) continue;
     // Heights above the facet's line or plane, times the length of its normal.
     const base::Point<dim> up = normal<dim>(facet);
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;

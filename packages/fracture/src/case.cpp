@@ -41,7 +41,8 @@ void fill_with_zeros(ParameterList& load, int dimension) {
   }
 }
 
-/// The values that stand for something exact: 0.333 for 1/3, no numbers for zeros.
+/// The values that stand for something exact, 0.333 for 1/3, no numbers for zeros, and the default that depends on the
+/// dimension.
 void complete(ParameterList& list) {
   const int dimension = list.get<int>("Dimension");
   ParameterList& material = list.sublist("Material");
@@ -50,6 +51,8 @@ void complete(ParameterList& list) {
   fill_with_zeros(conditions.sublist("Body Force"), dimension);
   ParameterList& tractions = conditions.sublist("Tractions");
   for (const auto& item : tractions) fill_with_zeros(tractions.sublist(item.first), dimension);
+  ParameterList& solver = list.sublist("Solver");
+  if (!solver.isParameter("Short-Range Cut-Off")) solver.set("Short-Range Cut-Off", dimension == 2 ? 0.52 : 0.45);
 }
 
 std::string folder_of(const std::filesystem::path& file) {

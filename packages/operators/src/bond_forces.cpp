@@ -26,61 +26,78 @@ int count_bits(unsigned mask) { return __builtin_popcount(mask); }
 template <int dim>
 BondForces<dim>::BondForces(const CoupledModel<dim>& model)
     : model_(model), first_packet_(model.mesh.n_elements(), -1) {
-  const auto& bonds = model.bonds;
+  make_packets();
+  make_blocks();
+}
+
+/// The points of the elements that have bonds, in fours.
+template <int dim>
+void BondForces<dim>::make_packets() {
+  const auto& bonds = model_.bonds;
   const double root_of_tau0 = std::sqrt(bonds.micromodulus().tau0);
-  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
     if (bonds.pairs_of(e).empty()) continue;
     first_packet_[e] = static_cast<int>(packets_.size());
-    for (int q = 0; q < model.points.count(e); q += n_lanes) {
-      packets_.push_back({e, shapes_of(model.points.reference(e), q)});
-      const int first = model.points.first(e) + q, n = std::min(n_lanes, model.points.count(e) - q);
+    for (int q = 0; q < model_.points.count(e); q += n_lanes) {
+      packets_.push_back({e, shapes_of(model_.points.reference(e), q)});
+      const int first = model_.points.first(e) + q, n = std::min(n_lanes, model_.points.count(e) - q);
       for (int c = 0; c < dim; ++c) {
-        for (int i = 0; i < n_lanes; ++i) positions_.push_back(i < n ? model.points.position(first + i)[c] : 0.);
+        for (int i = 0; i < n_lanes; ++i) positions_.push_back(i < n ? model_.points.position(first + i)[c] : 0.);
       }
-      for (int i = 0; i < n_lanes; ++i) alpha_.push_back(i < n ? 0.5 * model.alpha(first + i) : 0.);
+      for (int i = 0; i < n_lanes; ++i) alpha_.push_back(i < n ? 0.5 * model_.alpha(first + i) : 0.);
       for (int i = 0; i < n_lanes && bonds.computes_stiffness(); ++i) {
-        weights_.push_back(i < n ? root_of_tau0 * model.points.weight(first + i) : 0.);
+        weights_.push_back(i < n ? root_of_tau0 * model_.points.weight(first + i) : 0.);
       }
     }
   }
   displacements_.resize(positions_.size());
   forces_.resize(positions_.size());
+}
 
-  // Pairs of elements by their first element, each cut into blocks of two packets.
-  struct Bond {
-    int second, position;  ///< packet, number of the bit
-    float stiffness;       ///< not on the fly
+/// Pairs of elements by their first element, in the order of their second one's packets, each cut into blocks of two
+/// packets.
+template <int dim>
+void BondForces<dim>::make_blocks() {
+  const auto& bonds = model_.bonds;
+  struct Block {
+    int second;  ///< packet
+    unsigned mask = 0;
+    std::array<float, n_lanes * n_lanes> stiffness = {};  ///< where the mask has a bit; not on the fly
   };
-  std::vector<std::vector<int>> pairs_from(model.mesh.n_elements());
+  std::vector<std::vector<int>> pairs_from(model_.mesh.n_elements());
   for (int p = 0; p < bonds.n_pairs(); ++p) pairs_from[bonds.pair(p).first].push_back(p);
-  std::vector<std::vector<Bond>> from_packet;
-  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+  const auto n_packets = [&](int e) { return (model_.points.count(e) + n_lanes - 1) / n_lanes; };
+  std::vector<std::vector<Block>> from_packet;
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
     if (first_packet_[e] < 0) continue;
-    from_packet.assign((model.points.count(e) + n_lanes - 1) / n_lanes, {});
+    from_packet.assign(n_packets(e), {});
+    std::sort(pairs_from[e].begin(), pairs_from[e].end(),
+              [&](int p, int q) { return first_packet_[bonds.pair(p).second] < first_packet_[bonds.pair(q).second]; });
     for (const int p : pairs_from[e]) {
+      const int other = bonds.pair(p).second, n = n_packets(other);
+      for (auto& blocks : from_packet) {
+        for (int k = 0; k < n; ++k) blocks.push_back({first_packet_[other] + k});
+      }
       for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
         if (bonds.broken(b)) continue;
-        const int i = bonds.first_end(b), j = bonds.second_end(b), other = bonds.pair(p).second;
-        const double stiffness = bonds.computes_stiffness()
-                                     ? 0.
-                                     : bonds.stiffness(b, model.points.first(e) + i, model.points.first(other) + j);
-        from_packet[i / n_lanes].push_back(
-            {first_packet_[other] + j / n_lanes, i % n_lanes * n_lanes + j % n_lanes, static_cast<float>(stiffness)});
+        const int i = bonds.first_end(b), j = bonds.second_end(b);
+        Block& block = *(from_packet[i / n_lanes].end() - n + j / n_lanes);
+        block.mask |= bit(i % n_lanes, j % n_lanes);
+        if (bonds.computes_stiffness()) continue;
+        block.stiffness[i % n_lanes * n_lanes + j % n_lanes] = static_cast<float>(
+            bonds.stiffness(b, model_.points.first(e) + i, model_.points.first(other) + j));
       }
     }
-    for (auto& list : from_packet) {
+    for (const auto& blocks : from_packet) {
       first_block_.push_back(second_.size());
       first_bond_.push_back(stiffness_.size());
-      std::sort(list.begin(), list.end(), [](const Bond& a, const Bond& b) {
-        return a.second != b.second ? a.second < b.second : a.position < b.position;
-      });
-      for (const auto& bond : list) {
-        if (second_.size() == first_block_.back() || second_.back() != bond.second) {
-          second_.push_back(bond.second);
-          masks_.push_back(0);
+      for (const auto& block : blocks) {
+        if (block.mask == 0) continue;
+        second_.push_back(block.second);
+        masks_.push_back(static_cast<std::uint16_t>(block.mask));
+        for (unsigned left = block.mask; left != 0 && !bonds.computes_stiffness(); left &= left - 1) {
+          stiffness_.push_back(block.stiffness[__builtin_ctz(left)]);
         }
-        masks_.back() = static_cast<std::uint16_t>(masks_.back() | 1u << bond.position);
-        if (!bonds.computes_stiffness()) stiffness_.push_back(bond.stiffness);
       }
     }
   }

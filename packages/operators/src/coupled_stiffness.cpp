@@ -26,8 +26,8 @@ CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const Su
     : model_(model),
       selection_(selection),
       basis_(std::move(basis)),
-      has_selected_bonds_(model.bonds.n_pairs(), 0),
-      fixed_(supports.fixed) {
+      has_selected_bonds_(model.bonds.n_pairs(), 0) {
+  for (const char fixed : supports.fixed) free_.push_back(fixed ? 0. : 1.);
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1) && !has_selected_bonds_[p]; ++b) {
       has_selected_bonds_[p] = !model.bonds.broken(b) && is_selected(model.bonds.pair(p), b);
@@ -156,10 +156,10 @@ void CoupledStiffness<dim>::add_block(int row, int column, const Block& block) {
   const int* end = columns_.data() + first_[row + 1];
   const std::size_t width = static_cast<std::size_t>(end - begin) * dim;
   double* target = values_ + first_[row] * dim * dim + lower_bound(begin, end, column) * dim;
+  const double* is_row_free = free_.data() + row * dim;
+  const double* is_column_free = free_.data() + column * dim;
   for (int c = 0; c < dim; ++c) {
-    for (int d = 0; d < dim; ++d) {
-      if (!fixed_[row * dim + c] && !fixed_[column * dim + d]) target[c * width + d] += block(c, d);
-    }
+    for (int d = 0; d < dim; ++d) target[c * width + d] += is_row_free[c] * block(c, d) * is_column_free[d];
   }
 }
 

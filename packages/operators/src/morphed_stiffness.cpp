@@ -62,7 +62,7 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
     reduced_.resize(reduced_.size() + n_points);
   }
   base::Stiffness<dim>* reduced = reduced_.data() + first_[element];
-  std::fill_n(reduced, n_points, is_zero_[element] ? base::Stiffness<dim>::Zero().eval() : e0_);
+  std::fill_n(reduced, n_points, base::Stiffness<dim>::Zero());
   if (is_zero_[element]) return;
   for (const int p : bonds.pairs_of(element)) {
     const auto [first, second] = bonds.pair(p);
@@ -70,13 +70,15 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
       const int qi = bonds.first_end(b), qj = bonds.second_end(b);
       const int i = points.first(first) + qi, j = points.first(second) + qj;
       const auto v = elements::squared<dim>(points.position(j) - points.position(i));
-      const base::Stiffness<dim> term = 0.25 * (alpha_[i] + alpha_[j]) * bonds.stiffness(b, i, j) * v * v.transpose();
-      if (first == element) reduced[qi] -= term / points.weight(i);
-      if (second == element) reduced[qj] -= term / points.weight(j);
+      const base::Voigt<dim> scaled = (0.25 * (alpha_[i] + alpha_[j]) * bonds.stiffness(b, i, j)) * v;
+      if (first == element) reduced[qi].noalias() += scaled * v.transpose();
+      if (second == element) reduced[qj].noalias() += scaled * v.transpose();
     }
   }
-  if (!is_discontinuous) return;
-  for (int q = 0; q < n_points; ++q) reduced[q] = positive_part<dim>(reduced[q]);
+  for (int q = 0; q < n_points; ++q) {
+    reduced[q] = e0_ - reduced[q] / points.weight(points.first(element) + q);
+    if (is_discontinuous) reduced[q] = positive_part<dim>(reduced[q]);
+  }
 }
 
 template class MorphedStiffness<2>;

@@ -48,6 +48,8 @@ class BondForces {
 
   mutable std::vector<double> displacements_, forces_;  ///< per packet: (dim, 4)
 
+  void make_packets();
+  void make_blocks();
   std::size_t shapes_of(const elements::ReferenceElement<dim>& reference, int first_point);
   void gather(const double* u) const;
   template <bool on_the_fly>

@@ -47,7 +47,7 @@ class CoupledStiffness {
   BondSelection selection_;
   Teuchos::RCP<const PointBasis<dim>> basis_;  ///< null: nodal displacements everywhere
   std::vector<char> has_selected_bonds_;       ///< per pair of elements
-  std::vector<char> fixed_;                    ///< per local degree of freedom: prescribed
+  std::vector<double> free_;                   ///< per local degree of freedom: 0 if prescribed, 1 otherwise
   std::vector<std::size_t> first_;     ///< node-block rows: position of the first block of each owned node's row
   std::vector<int> columns_;           ///< nodes, ascending in a row
   std::vector<std::size_t> diagonal_;  ///< position of each row's diagonal block
