@@ -62,7 +62,7 @@ void BondForces<dim>::make_blocks() {
   struct Block {
     int second;  ///< packet
     unsigned mask = 0;
-    std::array<float, n_lanes * n_lanes> stiffness = {};  ///< where the mask has a bit; not on the fly
+    std::array<float, n_lanes* n_lanes> stiffness = {};  ///< where the mask has a bit; not on the fly
   };
   std::vector<std::vector<int>> pairs_from(model_.mesh.n_elements());
   for (int p = 0; p < bonds.n_pairs(); ++p) pairs_from[bonds.pair(p).first].push_back(p);
@@ -84,8 +84,8 @@ void BondForces<dim>::make_blocks() {
         Block& block = *(from_packet[i / n_lanes].end() - n + j / n_lanes);
         block.mask |= bit(i % n_lanes, j % n_lanes);
         if (bonds.computes_stiffness()) continue;
-        block.stiffness[i % n_lanes * n_lanes + j % n_lanes] = static_cast<float>(
-            bonds.stiffness(b, model_.points.first(e) + i, model_.points.first(other) + j));
+        block.stiffness[i % n_lanes * n_lanes + j % n_lanes] =
+            static_cast<float>(bonds.stiffness(b, model_.points.first(e) + i, model_.points.first(other) + j));
       }
     }
     for (const auto& blocks : from_packet) {

@@ -23,10 +23,7 @@ int lower_bound(const int* begin, const int* end, int value) {
 template <int dim>
 CoupledStiffness<dim>::CoupledStiffness(const CoupledModel<dim>& model, const Supports<dim>& supports,
                                         const BondSelection& selection, Teuchos::RCP<const PointBasis<dim>> basis)
-    : model_(model),
-      selection_(selection),
-      basis_(std::move(basis)),
-      has_selected_bonds_(model.bonds.n_pairs(), 0) {
+    : model_(model), selection_(selection), basis_(std::move(basis)), has_selected_bonds_(model.bonds.n_pairs(), 0) {
   for (const char fixed : supports.fixed) free_.push_back(fixed ? 0. : 1.);
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1) && !has_selected_bonds_[p]; ++b) {
