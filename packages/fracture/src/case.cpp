@@ -41,8 +41,7 @@ void fill_with_zeros(ParameterList& load, int dimension) {
   }
 }
 
-/// The values that stand for something exact, 0.333 for 1/3, no numbers for zeros, and the default that depends on the
-/// dimension.
+/// The values that stand for something exact: 0.333 for 1/3, no numbers for zeros.
 void complete(ParameterList& list) {
   const int dimension = list.get<int>("Dimension");
   ParameterList& material = list.sublist("Material");
@@ -51,8 +50,6 @@ void complete(ParameterList& list) {
   fill_with_zeros(conditions.sublist("Body Force"), dimension);
   ParameterList& tractions = conditions.sublist("Tractions");
   for (const auto& item : tractions) fill_with_zeros(tractions.sublist(item.first), dimension);
-  ParameterList& solver = list.sublist("Solver");
-  if (!solver.isParameter("Short-Range Cut-Off")) solver.set("Short-Range Cut-Off", dimension == 2 ? 0.52 : 0.45);
 }
 
 std::string folder_of(const std::filesystem::path& file) {
@@ -197,7 +194,9 @@ void take_solution(Case& result, const ParameterList& list) {
   result.breaking_fraction = loading.get<double>("Breaking Fraction");
   const ParameterList& solver = list.sublist("Solver");
   result.preconditioner_matrix = value_of(preconditioner_matrices, word(solver, "Preconditioner Matrix"));
-  result.short_range_cut_off = solver.get<double>("Short-Range Cut-Off") * result.horizon;
+  const double default_cut_off = result.dimension == 2 ? 0.52 : 0.45;  // the schema names it
+  result.short_range_cut_off =
+      optional_number(solver, "Short-Range Cut-Off").value_or(default_cut_off) * result.horizon;
   result.operator_form = value_of(operator_forms, word(solver, "Operator"));
   result.tolerance = solver.get<double>("Tolerance");
   result.damage_tolerance = solver.get<double>("Damage Tolerance");
