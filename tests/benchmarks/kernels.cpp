@@ -5,8 +5,7 @@
 
 #include <cstdlib>
 
-#include "perimorph/solvers/linear_solver.hpp"
-#include "support/coupled_body.hpp"
+#include "preconditioner_source.hpp"
 
 namespace perimorph::tests {
 
@@ -16,8 +15,9 @@ namespace {
 
 using Vector = Tpetra::Vector<double>;
 
-/// n x n squares, horizon 3 spacings, l = 1/5 spacing, peridynamic and discontinuous everywhere as in WHL19; held at
-/// the left.
+constexpr double horizon = 3.;
+
+/// n x n squares of size 1, l = 1/5, peridynamic and discontinuous everywhere as in WHL19; held at the left.
 int side() {
   const char* n = std::getenv("PERIMORPH_BENCHMARK_SIDE");
   return n == nullptr ? 200 : std::atoi(n);
@@ -26,7 +26,7 @@ int side() {
 const CoupledBody& square() {
   if (the_square == nullptr) {
     const double length = side();
-    Setup setup{{side(), side(), length, length}, 3., 0.2, {morphing::Zone<2>::everything()}};
+    Setup setup{{side(), side(), length, length}, horizon, 0.2, {morphing::Zone<2>::everything()}};
     setup.whole_zone_discontinuous = true;
     setup.prescribed = {{"x", "left", 0, {0., 0.}}, {"y", "left", 1, {0., 0.}}};
     the_square = std::make_unique<CoupledBody>(setup);
@@ -75,20 +75,24 @@ void stream_triad(benchmark::State& state) {
   state.SetBytesProcessed(static_cast<std::int64_t>(3 * n * sizeof(double)) * state.iterations());
 }
 
-/// Sets the preconditioner up and solves for a load on all nodes to 1e-8 of it.
-void solve(benchmark::State& state, const operators::BondSelection& selection) {
+/// Sets the preconditioner up and solves for a load on all nodes to 1e-8 of it; with an argument of 1 after a crack has
+/// run from the left edge to the middle.
+void solve(benchmark::State& state, const PreconditionerSource& source) {
   const auto& body = square();
-  const auto supports = body.supports();
-  const auto stiffness = Teuchos::rcp(new operators::MatrixFreeStiffness<2>(body.model(), supports));
-  const operators::CoupledStiffness<2> matrix(body.model(), supports, selection);
-  const auto modes = solvers::rigid_body_modes<2>(*matrix.matrix(), body.node_coordinates());
+  const auto stiffness = Teuchos::rcp(new operators::MatrixFreeStiffness<2>(body.model(), body.supports()));
+  if (state.range(0) == 1) {
+    const auto broken = body.bonds_across(1, 0.5 * side(), 0.5 * side());
+    stiffness->subtract(broken);
+    source.stiffness->subtract(broken);
+    state.counters["broken"] = static_cast<double>(broken.size());
+  }
   const Vector load = wave(body.dofs->owned_dofs());
   Vector x(load.getMap());
   base::Profile profile;
   int iterations = 0;
   for (auto _ : state) {
     solvers::LinearSolver solver({}, profile);
-    solver.set_operator(stiffness, matrix.matrix(), modes);
+    solver.set_operator(stiffness, source.stiffness->matrix(), source.modes, source.basis);
     iterations = solver.solve(load, x, 1e-8 * load.norm2());
   }
   const auto n = static_cast<double>(state.iterations());
@@ -97,16 +101,14 @@ void solve(benchmark::State& state, const operators::BondSelection& selection) {
   state.counters["cg"] = profile.seconds(base::Phase::cg) / n;
 }
 
-void solve_coupled(benchmark::State& state) { solve(state, operators::all_bonds); }
-void solve_short_range(benchmark::State& state) {
-  solve(state, operators::short_range(square().model(), *square().comm, 0.5 * 3.));
-}
+void solve_coupled(benchmark::State& state) { solve(state, coupled(square())); }
+void solve_short_range(benchmark::State& state) { solve(state, short_range(square(), horizon)); }
 
 BENCHMARK(stream_triad)->Unit(benchmark::kMillisecond);
 BENCHMARK(apply_crs)->Unit(benchmark::kMillisecond);
 BENCHMARK(apply_matrix_free)->Unit(benchmark::kMillisecond);
-BENCHMARK(solve_coupled)->Unit(benchmark::kMillisecond);
-BENCHMARK(solve_short_range)->Unit(benchmark::kMillisecond);
+BENCHMARK(solve_coupled)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(solve_short_range)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace perimorph::tests

@@ -14,17 +14,15 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "perimorph/solvers/linear_solver.hpp"
-#include "support/coupled_body.hpp"
+#include "preconditioner_source.hpp"
 
 namespace perimorph::tests {
 namespace {
 
 using Vector = Tpetra::Vector<double>;
-using Matrix = operators::CoupledStiffness<2>;
 
-constexpr double horizon = 3., cut_off = 0.6 * horizon;  // the case file's default
-constexpr int first_crack = 20, advance = 1;             // elements along it
+constexpr double horizon = 3.;
+constexpr int first_crack = 20, advance = 1;  // elements along it
 
 CoupledBody make_body(int side) {
   const double length = side, half_height = std::max(0.05 * length, 7.);
@@ -34,22 +32,6 @@ CoupledBody make_body(int side) {
   setup.whole_zone_discontinuous = true;
   setup.prescribed = {{"x", "bottom", 0, {0., 0.}}, {"y", "bottom", 1, {0., 0.}}};
   return CoupledBody(setup);
-}
-
-/// Breaks the bonds between elements on both sides of the axis, up to a distance from the left edge.
-std::vector<std::size_t> crack(CoupledBody& body, double axis, double up_to) {
-  std::vector<std::size_t> broken;
-  for (int p = 0; p < body.bonds.n_pairs(); ++p) {
-    const auto [first, second] = body.bonds.pair(p);
-    const Point2 one = mesh::centroid(body.mesh, first), other = mesh::centroid(body.mesh, second);
-    if ((one[1] < axis) == (other[1] < axis) || std::max(one[0], other[0]) > up_to) continue;
-    for (auto bond = body.bonds.first_bond(p); bond < body.bonds.first_bond(p + 1); ++bond) {
-      if (body.bonds.broken(bond)) continue;
-      body.bonds.set_broken(p, bond);
-      broken.push_back(bond);
-    }
-  }
-  return broken;
 }
 
 /// A unit force up on each node of the upper edge.
@@ -122,13 +104,10 @@ class Solution {
         correction_(load.getMap()) {}
 
   void solve_anew(const std::string& state) {
-    const auto supports = body_.supports();
-    stiffness_ = Teuchos::rcp(new operators::MatrixFreeStiffness<2>(body_.model(), supports));
-    short_range_ =
-        std::make_unique<Matrix>(body_.model(), supports, operators::short_range(body_.model(), *body_.comm, cut_off));
+    stiffness_ = Teuchos::rcp(new operators::MatrixFreeStiffness<2>(body_.model(), body_.supports()));
+    source_ = short_range(body_, horizon);
     solver_ = std::make_unique<solvers::LinearSolver>(solvers::SolverParameters{}, profile_);
-    solver_->set_operator(stiffness_, short_range_->matrix(),
-                          solvers::rigid_body_modes<2>(*short_range_->matrix(), body_.node_coordinates()));
+    solver_->set_operator(stiffness_, source_.stiffness->matrix(), source_.modes, source_.basis);
     x_.putScalar(0.);
     correct(state, 0.);
   }
@@ -136,7 +115,7 @@ class Solution {
   void solve_again(const std::string& state, const std::vector<std::size_t>& broken) {
     const Stopwatch watch;
     stiffness_->subtract(broken);
-    short_range_->subtract(broken);
+    source_.stiffness->subtract(broken);
     correct(state, watch.seconds());
   }
 
@@ -147,7 +126,7 @@ class Solution {
   Vector x_, residual_, correction_;
   base::Profile profile_;
   Teuchos::RCP<operators::MatrixFreeStiffness<2>> stiffness_;
-  std::unique_ptr<Matrix> short_range_;
+  PreconditionerSource source_;
   std::unique_ptr<solvers::LinearSolver> solver_;
 
   /// Adds to the solution what is missing. The time of the multigrid's set-up is measured within the solver.
@@ -185,7 +164,7 @@ void run(const std::string& folder, int side) {
   Solution solution(body, *coupled, load);
   solution.solve_anew("intact");
   for (int k = 1; k <= 1 + n_advances; ++k) {
-    const auto broken = crack(body, 0.5 * side, first_crack + (k - 1) * advance);
+    const auto broken = body.break_bonds(body.bonds_across(1, 0.5 * side, first_crack + (k - 1) * advance));
     body.stiffness->subtract(broken);
     write_change(change_file(folder, k));
     if (k == 1) {

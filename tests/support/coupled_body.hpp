@@ -94,18 +94,39 @@ struct CoupledBody {
     return coordinates;
   }
 
+  /// The intact bonds between elements on both sides of a line normal to an axis, up to where the other axis is end.
+  std::vector<std::size_t> bonds_across(int axis, double line, double end) const {
+    return bonds_between([&](int first, int second) {
+      const Point2 one = mesh::centroid(mesh, first), other = mesh::centroid(mesh, second);
+      return (one[axis] < line) != (other[axis] < line) && std::max(one[1 - axis], other[1 - axis]) <= end;
+    });
+  }
+
+  /// Returns the bonds that it breaks.
+  std::vector<std::size_t> break_bonds(std::vector<std::size_t> broken) {
+    for (const auto b : broken) bonds.set_broken(bonds.pair_of(b), b);
+    return broken;
+  }
+
   /// Breaks the bonds between pairs of elements the sum of whose ids is a multiple of n. Returns them.
   std::vector<std::size_t> break_each(int n) {
-    std::vector<std::size_t> broken;
+    return break_bonds(bonds_between([&](int first, int second) {
+      return first != second && (mesh.element_ids[first] + mesh.element_ids[second]) % n == 0;
+    }));
+  }
+
+  /// The intact bonds between two elements where is_chosen(first, second), ascending.
+  template <class IsChosen>
+  std::vector<std::size_t> bonds_between(const IsChosen& is_chosen) const {
+    std::vector<std::size_t> chosen;
     for (int p = 0; p < bonds.n_pairs(); ++p) {
       const auto [first, second] = bonds.pair(p);
-      if (first == second || (mesh.element_ids[first] + mesh.element_ids[second]) % n != 0) continue;
+      if (!is_chosen(first, second)) continue;
       for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
-        bonds.set_broken(p, b);
-        broken.push_back(b);
+        if (!bonds.broken(b)) chosen.push_back(b);
       }
     }
-    return broken;
+    return chosen;
   }
 
   /// The owned nodes whose rows another matrix of the same pattern has other values in.

@@ -11,6 +11,7 @@
 #include "mesh_checks.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/geometry.hpp"
+#include "perimorph/operators/bond_selection.hpp"
 #include "resolve.hpp"
 #include "temporary_folder.hpp"
 
@@ -194,9 +195,9 @@ void take_solution(Case& result, const ParameterList& list) {
   result.breaking_fraction = loading.get<double>("Breaking Fraction");
   const ParameterList& solver = list.sublist("Solver");
   result.preconditioner_matrix = value_of(preconditioner_matrices, word(solver, "Preconditioner Matrix"));
-  const double default_cut_off = result.dimension == 2 ? 0.52 : 0.45;  // the schema names it
   result.short_range_cut_off =
-      optional_number(solver, "Short-Range Cut-Off").value_or(default_cut_off) * result.horizon;
+      result.horizon *
+      optional_number(solver, "Short-Range Cut-Off").value_or(operators::default_cut_off(result.dimension));
   result.operator_form = value_of(operator_forms, word(solver, "Operator"));
   result.tolerance = solver.get<double>("Tolerance");
   result.damage_tolerance = solver.get<double>("Damage Tolerance");

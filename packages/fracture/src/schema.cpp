@@ -1,10 +1,13 @@
 // Every parameter of the case file: name, default (or an example, where there is none), documentation, rule. Units
 // stand in brackets; perimorph knows none, so that any consistent set will do (mm, N and MPa; or m, N and Pa).
 
+#include <fmt/format.h>
+
 #include <Teuchos_Array.hpp>
 
 #include "choices.hpp"
 #include "perimorph/fracture/case.hpp"
+#include "perimorph/operators/bond_selection.hpp"
 #include "rules.hpp"
 
 namespace perimorph::fracture {
@@ -288,11 +291,12 @@ void declare_solver(ParameterList& root) {
       "What the multigrid preconditioner is built from: \"Coupled\" is the whole stiffness; \"Short-Range\" leaves out "
       "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
       one_of(words(preconditioner_matrices)));
-  solver.set(
-      "Short-Range Cut-Off", 0.52,
-      "Longest bond in the short-range matrix, in horizons [-]; 0.52 in two dimensions and 0.45 in three if not given. "
-      "Below the distance of points in neighbouring elements the preconditioner is useless.",
-      optional(between(0., 1.)));
+  solver.set("Short-Range Cut-Off", operators::default_cut_off(2),
+             fmt::format(
+                 "Longest bond in the short-range matrix, in horizons [-]; {} in two dimensions and {} in three if not "
+                 "given. Below the distance of points in neighbouring elements the preconditioner is useless.",
+                 operators::default_cut_off(2), operators::default_cut_off(3)),
+             optional(between(0., 1.)));
   solver.set(
       "Tolerance", 1e-6,
       "Residual over the norm of the reaction forces [-], in every solution that is accepted. Only with it is it "

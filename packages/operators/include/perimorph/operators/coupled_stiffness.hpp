@@ -2,19 +2,12 @@
 
 #include <Tpetra_CrsMatrix_fwd.hpp>
 #include <Tpetra_Operator_fwd.hpp>
-#include <limits>
 #include <vector>
 
+#include "perimorph/operators/bond_selection.hpp"
 #include "perimorph/operators/point_basis.hpp"
 
 namespace perimorph::operators {
-
-/// Which bonds a matrix takes in, and by what their stiffness is multiplied.
-struct BondSelection {
-  double reach;  ///< bonds up to this length, [length]
-  double scale;
-};
-inline constexpr BondSelection all_bonds = {std::numeric_limits<double>::infinity(), 1.};
 
 /// The bonds up to a length, stiffened so that Sum k |xi|^4, and with it the stiffness against smooth strains, is that
 /// of all bonds. Their matrix has far fewer entries and is nearly as good to build a preconditioner from. Collective.
