@@ -98,8 +98,10 @@ def run(case, output, ranks=1, settings=(), ends=(0,), is_enough=None):
     command = program(ranks, "run", case, settings) + ["--output", output, "--quiet", "--no-progress"]
     if is_enough:
         shutil.rmtree(output, ignore_errors=True)  # the rows of an earlier run would be taken for this one's
+    # After an exit status other than 0 mpirun would wait a second.
+    environment = dict(os.environ, OMPI_MCA_odls_base_sigkill_timeout="0")
     begin = time.monotonic()
-    process = subprocess.Popen(command)
+    process = subprocess.Popen(command, env=environment)
     if is_enough:
         status, usage, was_enough = wait_until(is_enough, process, output)
     else:
