@@ -162,6 +162,19 @@ class Runs(Driver):
         self.assertAlmostEqual(reaction(rows[1], "upper") / reaction(rows[0], "upper"), 2, places=5)
         self.assertLess(reaction(rows[2], "upper"), 3 * reaction(rows[0], "upper"))
 
+    def test_increments_before_the_first_break_cost_no_solve(self):
+        rates = [f"Boundary Conditions/Displacements/pull {way}/Rate={rate}" for way, rate in [("up", 0.02), ("down", -0.02)]]
+        options = [option for setting in [*rates, "Loading/Increments=20"] for option in ("--set", setting)]
+        self.assertEqual(self.run_case(*options).returncode, 0)
+
+        rows = self.history()
+        self.assertEqual([int(row["broken_bonds"]) for row in rows], [0] * 20)
+        solves = [int(row["linear_solves"]) for row in rows]
+        self.assertIn(solves[0], [1, 2, 3])
+        self.assertEqual(solves[1:], [0] * 19)
+        with netCDF4.Dataset(self.output / "plate.e") as file:
+            self.assertEqual(len(file["time_whole"]), 20)
+
     def test_the_exodus_series_reads_back(self):
         self.assertEqual(self.run_case(ranks=2).returncode, 0)
         rows = self.history()
