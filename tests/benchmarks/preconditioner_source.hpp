@@ -24,7 +24,8 @@ inline PreconditionerSource coupled(const CoupledBody& body) {
 inline PreconditionerSource short_range(const CoupledBody& body, double horizon) {
   const auto supports = body.supports();
   const auto basis = Teuchos::rcp(new operators::PointBasis<2>(body.model(), supports, body.discontinuous));
-  const auto bonds = operators::short_range(body.model(), *body.comm, operators::default_cut_off(2) * horizon);
+  const auto bonds =
+      operators::short_range(body.model(), *body.comm, operators::default_short_range_cut_off(2) * horizon);
   auto stiffness = std::make_unique<operators::CoupledStiffness<2>>(body.model(), supports, bonds, basis);
   auto coordinates = body.node_coordinates();
   basis->move_to_points(coordinates);

@@ -94,6 +94,20 @@ struct CoupledBody {
     return coordinates;
   }
 
+  /// The intact bonds between two elements where is_chosen(first, second), ascending.
+  template <class IsChosen>
+  std::vector<std::size_t> bonds_between(const IsChosen& is_chosen) const {
+    std::vector<std::size_t> chosen;
+    for (int p = 0; p < bonds.n_pairs(); ++p) {
+      const auto [first, second] = bonds.pair(p);
+      if (!is_chosen(first, second)) continue;
+      for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
+        if (!bonds.broken(b)) chosen.push_back(b);
+      }
+    }
+    return chosen;
+  }
+
   /// The intact bonds between elements on both sides of a line normal to an axis, up to where the other axis is end.
   std::vector<std::size_t> bonds_across(int axis, double line, double end) const {
     return bonds_between([&](int first, int second) {
@@ -113,20 +127,6 @@ struct CoupledBody {
     return break_bonds(bonds_between([&](int first, int second) {
       return first != second && (mesh.element_ids[first] + mesh.element_ids[second]) % n == 0;
     }));
-  }
-
-  /// The intact bonds between two elements where is_chosen(first, second), ascending.
-  template <class IsChosen>
-  std::vector<std::size_t> bonds_between(const IsChosen& is_chosen) const {
-    std::vector<std::size_t> chosen;
-    for (int p = 0; p < bonds.n_pairs(); ++p) {
-      const auto [first, second] = bonds.pair(p);
-      if (!is_chosen(first, second)) continue;
-      for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
-        if (!bonds.broken(b)) chosen.push_back(b);
-      }
-    }
-    return chosen;
   }
 
   /// The owned nodes whose rows another matrix of the same pattern has other values in.

@@ -197,7 +197,7 @@ void take_solution(Case& result, const ParameterList& list) {
   result.preconditioner_matrix = value_of(preconditioner_matrices, word(solver, "Preconditioner Matrix"));
   result.short_range_cut_off =
       result.horizon *
-      optional_number(solver, "Short-Range Cut-Off").value_or(operators::default_cut_off(result.dimension));
+      optional_number(solver, "Short-Range Cut-Off").value_or(operators::default_short_range_cut_off(result.dimension));
   result.operator_form = value_of(operator_forms, word(solver, "Operator"));
   result.tolerance = solver.get<double>("Tolerance");
   result.damage_tolerance = solver.get<double>("Damage Tolerance");

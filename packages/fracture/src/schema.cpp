@@ -291,11 +291,11 @@ void declare_solver(ParameterList& root) {
       "What the multigrid preconditioner is built from: \"Coupled\" is the whole stiffness; \"Short-Range\" leaves out "
       "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.",
       one_of(words(preconditioner_matrices)));
-  solver.set("Short-Range Cut-Off", operators::default_cut_off(2),
+  solver.set("Short-Range Cut-Off", operators::default_short_range_cut_off(2),
              fmt::format(
                  "Longest bond in the short-range matrix, in horizons [-]; {} in two dimensions and {} in three if not "
                  "given. Below the distance of points in neighbouring elements the preconditioner is useless.",
-                 operators::default_cut_off(2), operators::default_cut_off(3)),
+                 operators::default_short_range_cut_off(2), operators::default_short_range_cut_off(3)),
              optional(between(0., 1.)));
   solver.set(
       "Tolerance", 1e-6,

@@ -7,11 +7,11 @@ namespace perimorph::operators {
 /// Which bonds a matrix takes in, and by what their stiffness is multiplied.
 struct BondSelection {
   double reach;  ///< bonds up to this length, [length]
-  double scale;
+  double scale;  ///< [-]
 };
 inline constexpr BondSelection all_bonds = {std::numeric_limits<double>::infinity(), 1.};
 
-/// What reach a matrix of short bonds has if nobody says otherwise, in horizons [-].
-inline constexpr double default_cut_off(int dimension) { return dimension == 2 ? 0.52 : 0.45; }
+/// Reach of the short-range matrix if the case file says nothing, in horizons [-] (DECISIONS.md, 10).
+constexpr double default_short_range_cut_off(int dimension) { return dimension == 2 ? 0.52 : 0.45; }
 
 }  // namespace perimorph::operators
