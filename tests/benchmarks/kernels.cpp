@@ -1,5 +1,5 @@
 // Kernels on an all-peridynamic square: applying the operator in its two forms, setting up the preconditioner from its
-// two matrices, and a STREAM triad for comparison. tools/benchmark runs this and prints the ratios.
+// two matrices, and a STREAM triad for comparison. tools/studies/benchmark runs this and prints the ratios.
 
 #include <benchmark/benchmark.h>
 

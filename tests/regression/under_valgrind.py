@@ -1,5 +1,5 @@
 """The program under valgrind, on small cases: no report and no memory lost but by libraries, as valgrind.supp says.
-tools/valgrind runs it.
+tools/checks/valgrind runs it.
 
     under_valgrind.py PERIMORPH MPIEXEC
 """

@@ -1,5 +1,5 @@
 // A long run in which a crack grows slowly: what it holds in memory at the end is what a run holds that went on from a
-// checkpoint a twentieth before. Not one of the tests of ctest: tools/soak runs it.
+// checkpoint a twentieth before. Not one of the tests of ctest: tools/checks/soak runs it.
 //
 //     soak [INCREMENTS]
 

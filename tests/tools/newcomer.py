@@ -1,5 +1,5 @@
 """From a clone to a picture of a broken beam: the README's first two commands, as they are written. Only what they install and
-build is there already (tools/fresh-machine does that, too).
+build is there already (tools/checks/fresh-machine does that, too).
 
     newcomer.py PERIMORPH RUNS
 """
@@ -77,7 +77,7 @@ class Newcomer(unittest.TestCase):
     def test_what_cannot_be_installed_is_told(self):
         told = subprocess.run(
             [sys.executable, "-c", 'import messages; messages.need("numpy", "no_such_module", programs=["sh", "no_such_program"])'],
-            cwd=self.clone / "tools", capture_output=True, text=True, timeout=100)
+            cwd=self.clone / "tools/lib", capture_output=True, text=True, timeout=100)
         self.assertEqual(told.returncode, 2, told.stderr)
         self.assertIn("no_such_module, no_such_program missing, and tools/install-dependencies view has not brought it", told.stderr)
 

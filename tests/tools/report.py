@@ -16,7 +16,7 @@ import unittest
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 PERIMORPH, RUN = sys.argv[1], pathlib.Path(sys.argv[2]) / "small_plate/out"
 del sys.argv[1:]
-sys.path.insert(0, str(TOOLS))
+sys.path.insert(0, str(TOOLS / "lib"))
 import runs
 
 

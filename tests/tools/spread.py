@@ -19,7 +19,7 @@ TESTS = pathlib.Path(__file__).resolve().parents[1]
 TOOLS = TESTS.parent / "tools"
 PERIMORPH, _, MPIEXEC = sys.argv[1:4]
 sys.argv[1:4] = [PERIMORPH, MPIEXEC]  # as driver.py wants them
-sys.path[:0] = [str(TOOLS), str(TESTS / "regression")]
+sys.path[:0] = [str(TOOLS / "lib"), str(TESTS / "regression")]
 import restart
 import runs
 

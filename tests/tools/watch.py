@@ -32,7 +32,7 @@ del sys.argv[1:]
 
 def functions_of_watch():
     """The tool as a module, without its server."""
-    sys.path.insert(0, str(TOOLS))
+    sys.path.insert(0, str(TOOLS / "lib"))
     loader = importlib.machinery.SourceFileLoader("watch_tool", str(TOOLS / "watch"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)

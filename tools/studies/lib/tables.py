@@ -1,4 +1,4 @@
-"""What the Python tools share that print tables: in Markdown, so that they can be pasted into a README."""
+"""What the studies share that print tables: in Markdown, so that they can be pasted into a README."""
 
 
 def print_table(title, columns, rows):

@@ -1,4 +1,4 @@
-"""The fracture half of tools/work-precision: the load at which a crack runs, against linear elastic fracture mechanics."""
+"""The fracture half of tools/studies/work-precision: the load at which a crack runs, against linear elastic fracture mechanics."""
 
 import csv
 import os

@@ -32,7 +32,7 @@ def need(*modules, programs=(), group="view"):
     """Sees to it that Python modules and programs are there, as tools/run does: what is missing is installed."""
     if not missing(modules, programs):
         return
-    subprocess.call([os.path.join(os.path.dirname(os.path.realpath(__file__)), "install-dependencies"), group])
+    subprocess.call([os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "install-dependencies"), group])
     importlib.invalidate_caches()
     left = missing(modules, programs)
     if left:

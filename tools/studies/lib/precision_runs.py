@@ -1,4 +1,4 @@
-"""What tools/work-precision runs: plates in plane stress and slabs in plane strain, on whose outer boundary an exact
+"""What tools/studies/work-precision runs: plates in plane stress and slabs in plane strain, on whose outer boundary an exact
 displacement is prescribed, node by node."""
 
 import csv

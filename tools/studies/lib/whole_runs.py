@@ -1,4 +1,4 @@
-"""Whole runs of the program, for tools/benchmark: what their tables are made of."""
+"""Whole runs of the program, for tools/studies/benchmark: what their tables are made of."""
 
 import glob
 import os
@@ -9,11 +9,10 @@ import xml.etree.ElementTree as ElementTree
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
-from cases import TOOLS, check, make_mesh, run
+from cases import ROOT, TOOLS, check, make_mesh, run
 from squares import POLICIES, cube, side_for, square
 from tables import print_table
 
-ROOT = os.path.dirname(TOOLS)
 DOUBLE_NOTCH = os.path.join(ROOT, "inputs", "double_edge_notched_plate", "double_edge_notched_plate.xml")
 EXAMPLES_THAT_BREAK = ["brazilian_disk", "notched_plate_hole_h10", "notched_plate_hole_h15", "notched_beam",
                        "double_edge_notched_plate"]

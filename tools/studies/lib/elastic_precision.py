@@ -1,4 +1,4 @@
-"""The elastic half of tools/work-precision: error of the displacement around a hole."""
+"""The elastic half of tools/studies/work-precision: error of the displacement around a hole."""
 
 import os
 import subprocess

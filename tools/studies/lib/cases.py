@@ -1,4 +1,4 @@
-"""What the Python tools share that make cases of their own and measure how they run."""
+"""What the studies share that make cases of their own and measure how they run."""
 
 import collections
 import csv
@@ -11,7 +11,8 @@ import time
 from messages import fail
 from runs import Log
 
-TOOLS = os.path.dirname(os.path.realpath(__file__))
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", ".."))
+TOOLS = os.path.join(ROOT, "tools")
 
 
 def xml(name, value):
@@ -76,7 +77,7 @@ def wait_until(is_enough, process, output):
 
 def program(ranks, what, case, settings):
     """The command that runs or checks a case as the tools for people would, without building."""
-    command = ["bash", "-c", '. "$0"; exec $1 "$root/build/drivers/perimorph" "${@:2}"', os.path.join(TOOLS, "environment"),
+    command = ["bash", "-c", '. "$0"; exec $1 "$root/build/drivers/perimorph" "${@:2}"', os.path.join(TOOLS, "lib", "environment"),
                f"mpirun --quiet -n {ranks}" if ranks > 1 else "", what, case]
     return command + [part for setting in settings for part in ("--set", setting)]
 

@@ -1,4 +1,4 @@
-"""What the Python tools share that measure how cost grows: a square of n x n elements of size 1, or a cube of n x n x n, held
+"""What the studies share that measure how cost grows: a square of n x n elements of size 1, or a cube of n x n x n, held
 at the bottom, with a traction on the top, in three models: finite elements only, hybrid with a peridynamic zone of a
 twentieth of the area or volume (as around a crack from the left edge or face to the middle), all peridynamic. Horizon 3 unless
 the caller says otherwise, l = 1/5. Nothing breaks."""
