@@ -47,8 +47,3 @@ target_link_libraries(perimorph_exodus INTERFACE ${EXODUSII_LIBRARY} MPI::MPI_CX
 add_library(perimorph_hdf5 INTERFACE)
 target_include_directories(perimorph_hdf5 SYSTEM INTERFACE ${HDF5_INCLUDE_DIR})
 target_link_libraries(perimorph_hdf5 INTERFACE ${HDF5_LIBRARY} MPI::MPI_CXX)
-
-add_library(perimorph_warnings INTERFACE)
-# Off: GCC 12 reports these inside its own AVX-512 headers (through Eigen) and inside fmt.
-target_compile_options(perimorph_warnings INTERFACE
-  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Werror -Wno-maybe-uninitialized -Wno-stringop-overflow)
