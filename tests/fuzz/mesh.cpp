@@ -4,14 +4,14 @@
 
 #include "input_file.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/mesh/read_mesh.hpp"
+#include "perimorph/mesh_files/read_mesh.hpp"
 
 namespace {
 
 template <int dim>
 void read(const std::string& file) {
   try {
-    const auto mesh = perimorph::mesh::read_mesh<dim>(file);
+    const auto mesh = perimorph::mesh_files::read_mesh<dim>(file);
     if (mesh.n_elements() == 0 || mesh.boundary.empty()) std::abort();
   } catch (const perimorph::base::UserError& error) {
     // The message names the file, and nothing in it can play with a terminal.

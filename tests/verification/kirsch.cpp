@@ -5,8 +5,8 @@
 
 #include <fstream>
 
-#include "perimorph/mesh/gmsh.hpp"
-#include "perimorph/mesh/read_mesh.hpp"
+#include "perimorph/mesh_files/gmsh.hpp"
+#include "perimorph/mesh_files/read_mesh.hpp"
 #include "support/fracture_body.hpp"
 
 namespace perimorph::tests {
@@ -52,8 +52,8 @@ Point2 kirsch(const Point2& x) {
 mesh::Mesh<2> meshed_plate() {
   const std::string stem = testing::TempDir() + "perimorph_kirsch";
   std::ofstream(stem + ".geo") << plate_with_hole;
-  mesh::mesh_geometry(stem + ".geo", stem + ".msh", 2);
-  return mesh::read_mesh<2>(stem + ".msh");
+  mesh_files::mesh_geometry(stem + ".geo", stem + ".msh", 2);
+  return mesh_files::read_mesh<2>(stem + ".msh");
 }
 
 /// The plate with a horizon of three elements. No peridynamic zone yet.

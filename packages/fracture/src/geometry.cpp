@@ -1,7 +1,7 @@
 #include "perimorph/fracture/geometry.hpp"
 
 #include "perimorph/base/errors.hpp"
-#include "perimorph/mesh/read_mesh.hpp"
+#include "perimorph/mesh_files/read_mesh.hpp"
 
 namespace perimorph::fracture {
 
@@ -66,7 +66,7 @@ std::vector<Point<dim>> places_of(const Probe& probe) {
 
 template <int dim>
 mesh::Mesh<dim> read_opened_mesh(const Case& input, const std::string& folder) {
-  auto whole = mesh::mesh_and_read<dim>(input.mesh_file, folder, input.mesh_scale);
+  auto whole = mesh_files::mesh_and_read<dim>(input.mesh_file, folder, input.mesh_scale);
   if (!input.pre_cracks.empty()) mesh::open_along<dim>(whole, facets_of<dim>(input.pre_cracks));
   return whole;
 }

@@ -10,7 +10,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
-#include "perimorph/mesh/read_mesh.hpp"
+#include "perimorph/mesh_files/read_mesh.hpp"
 
 namespace perimorph::fracture {
 
@@ -64,7 +64,7 @@ RulePtr text(const std::string& what) {
 }
 
 RulePtr mesh_file() {
-  std::vector<std::string> endings = mesh::mesh_file_endings();
+  std::vector<std::string> endings = mesh_files::mesh_file_endings();
   endings.insert(endings.begin(), ".geo");
   const std::string allowed = "a readable name of a file that ends in " + base::quoted_list(endings, " or ");
   return rule<std::string>(allowed, [endings](const std::string& value) {

@@ -12,7 +12,7 @@
 #include "perimorph/fracture/advice.hpp"
 #include "perimorph/fracture/automatic_seeds.hpp"
 #include "perimorph/fracture/calibration.hpp"
-#include "perimorph/mesh/read_mesh.hpp"
+#include "perimorph/mesh/mesh_report.hpp"
 #include "temporary_folder.hpp"
 
 namespace perimorph::fracture {

@@ -9,7 +9,7 @@
 #include "packed_mesh.hpp"
 #include "partition.hpp"
 #include "perimorph/base/errors.hpp"
-#include "sorted_sides.hpp"
+#include "perimorph/mesh/sorted_sides.hpp"
 
 namespace perimorph::mesh {
 

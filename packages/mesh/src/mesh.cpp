@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "sorted_sides.hpp"
+#include "perimorph/mesh/sorted_sides.hpp"
 #include "topology.hpp"
 
 namespace perimorph::mesh {

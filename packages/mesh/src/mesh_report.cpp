@@ -1,12 +1,11 @@
-// What is in a mesh, in words.
+#include "perimorph/mesh/mesh_report.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
-#include "orientation.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/mesh/read_mesh.hpp"
+#include "perimorph/mesh/orientation.hpp"
 #include "topology.hpp"
 
 namespace perimorph::mesh {

@@ -1,4 +1,4 @@
-#include "orientation.hpp"
+#include "perimorph/mesh/orientation.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "sorted_sides.hpp"
+#include "perimorph/mesh/sorted_sides.hpp"
 
 namespace perimorph::mesh {
 

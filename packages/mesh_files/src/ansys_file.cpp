@@ -1,0 +1,408 @@
+// Archives of ANSYS (CDWRITE, blocked): the commands ET, NBLOCK, EBLOCK and CMBLOCK of its Command Reference, and the
+// shapes of PLANE182 and SOLID185 in its Element Reference.
+
+#include "ansys_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <set>
+
+#include "file_cursor.hpp"
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::mesh_files {
+
+namespace {
+
+const Advice advice = {"write PLANE182 elements for a 2D case, SOLID185 for a 3D one",
+                       "Select only the nodes of the elements (NSLE) before CDWRITE",
+                       "ANSYS numbers the nodes of an area's elements counterclockwise, seen from +z: reverse the area "
+                       "(AREVERSE)"};
+
+constexpr std::size_t longest_command = 500;
+constexpr int widest_column = 60;
+
+// Places in a line of EBLOCK, SOLID.
+constexpr std::size_t material_field = 0, type_field = 1, count_field = 8, number_field = 10, n_fields = 11;
+constexpr std::size_t nodes_in_line = 8;
+
+using Nodes = std::vector<std::int64_t>;
+
+/// The number of corners of the elements that may be read, by ANSYS' number of the element.
+const std::map<int, std::size_t> corners_of_kind = {{42, 4}, {182, 4}, {45, 8}, {185, 8}};
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// The fields of a command, without blanks around them and without the comment after "!".
+std::vector<std::string> fields_of(const std::string& line) {
+  const std::string command = line.substr(0, std::min(line.find('!'), longest_command));
+  std::vector<std::string> fields;
+  for (std::size_t begin = 0; begin <= command.size();) {
+    const std::size_t comma = std::min(command.find(',', begin), command.size());
+    fields.push_back(trimmed(command.substr(begin, comma - begin)));
+    begin = comma + 1;
+  }
+  return fields;
+}
+
+/// A line such as (3i9,6e21.13e3): columns of whole numbers, then of real ones.
+struct Format {
+  int n_integers = 0, integer_width = 0, n_reals = 0, real_width = 0;
+};
+
+/// A collapsed element without its repeated nodes.
+struct Reduced {
+  Shape shape;
+  Nodes nodes;
+};
+
+std::size_t n_different(const Nodes& nodes) { return std::set<std::int64_t>(nodes.begin(), nodes.end()).size(); }
+
+/// A ring of nodes, each once where it stands beside itself.
+Nodes without_repetition(Nodes ring) {
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  return ring;
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::string& file) : cursor_(file, "an ANSYS archive") {
+    result_.name = file;
+    result_.advice = advice;
+    result_.sides_follow_from_node_sets = true;
+  }
+
+  MeshFile read() {
+    while (!cursor_.at_end()) read_command();
+    if (!has_nodes_ || !has_elements_) {
+      cursor_.fail(
+          fmt::format("the file ends without {}: it is truncated, or no archive that CDWRITE wrote in blocked form",
+                      has_nodes_ ? "EBLOCK" : "NBLOCK"));
+    }
+    sorted_tags_ = result_.node_tags;
+    std::sort(sorted_tags_.begin(), sorted_tags_.end());
+    add_blocks();
+    add_node_sets();
+    return std::move(result_);
+  }
+
+ private:
+  /// A component: runs of numbers, first and last, ascending.
+  struct Component {
+    std::string name;
+    std::vector<std::pair<std::int64_t, std::int64_t>> runs;
+  };
+
+  void read_command() {
+    const std::vector<std::string> fields = fields_of(cursor_.line());
+    const std::string command = lower(fields[0]);
+    if (command == "et") {
+      read_element_kind(fields);
+    } else if (command == "nblock") {
+      read_nodes(fields);
+    } else if (command == "eblock") {
+      read_elements(fields);
+    } else if (command == "cmblock") {
+      read_component(fields);
+    }
+  }
+
+  // ---- numbers ----
+
+  std::int64_t whole_number(const std::string& text) const {
+    const std::string digits = trimmed(text);
+    std::int64_t value = 0;
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || stop != digits.data() + digits.size()) {
+      cursor_.fail(fmt::format("a whole number expected, found \"{}\"", excerpt(digits)));
+    }
+    return value;
+  }
+
+  double real_number(const std::string& text) const {
+    const std::string digits = trimmed(text);
+    double value = 0.;
+    if (digits.empty()) return value;
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || stop != digits.data() + digits.size() || !std::isfinite(value)) {
+      cursor_.fail(fmt::format("a number expected, found \"{}\"", excerpt(digits)));
+    }
+    return value;
+  }
+
+  /// The count in a command's field, -1 if it does not say.
+  std::int64_t announced(const std::vector<std::string>& fields, std::size_t field) const {
+    return field < fields.size() && !fields[field].empty() ? whole_number(fields[field]) : -1;
+  }
+
+  void check_total(const char* what, std::int64_t expected, std::size_t found) const {
+    if (expected <= 0 || static_cast<std::size_t>(expected) == found) return;
+    cursor_.fail(fmt::format("{} {} announced, {} found: the file is damaged", expected, what, found));
+  }
+
+  Format read_format() {
+    const std::string line = lower(cursor_.line());
+    Format format;
+    const int n = std::sscanf(line.c_str(), "(%4di%4d,%4de%4d", &format.n_integers, &format.integer_width,
+                              &format.n_reals, &format.real_width);
+    const auto is_sound = [](int width) { return width >= 1 && width <= widest_column; };
+    const bool sound = (n == 2 || n == 4) && is_sound(format.n_integers) && is_sound(format.integer_width) &&
+                       (n == 2 || (is_sound(format.n_reals) && is_sound(format.real_width)));
+    if (!sound) {
+      cursor_.fail(fmt::format("a format such as (3i9,6e21.13e3) expected, found \"{}\"", excerpt(line)));
+    }
+    return format;
+  }
+
+  /// The next line of a block.
+  std::string data_line() {
+    if (cursor_.at_end_of_text()) cursor_.fail_truncated();
+    return cursor_.raw_line();
+  }
+
+  static std::string column(const std::string& line, std::size_t begin, int width) {
+    return begin < line.size() ? line.substr(begin, static_cast<std::size_t>(width)) : "";
+  }
+
+  /// The whole numbers of a line, up to its end.
+  std::vector<std::int64_t> integers(const std::string& line, const Format& format) const {
+    std::vector<std::int64_t> values;
+    for (int i = 0; i < format.n_integers; ++i) {
+      const std::string text = column(line, static_cast<std::size_t>(i) * format.integer_width, format.integer_width);
+      if (trimmed(text).empty()) break;
+      values.push_back(whole_number(text));
+    }
+    return values;
+  }
+
+  // ---- nodes and elements ----
+
+  /// ET, number, kind: as 182 or PLANE182.
+  void read_element_kind(const std::vector<std::string>& fields) {
+    if (fields.size() < 3) cursor_.fail("ET without a number and an element type");
+    const std::string digits = fields[2].substr(std::min(fields[2].find_first_of("0123456789"), fields[2].size()));
+    kinds_[whole_number(fields[1])] = static_cast<int>(whole_number(digits) % 100000);
+  }
+
+  void read_nodes(const std::vector<std::string>& fields) {
+    const Format format = read_format();
+    const std::size_t before = result_.node_tags.size();
+    for (;;) {
+      const std::string line = data_line();
+      const std::string start = trimmed(line);
+      if (start.rfind("-1", 0) == 0 || start.rfind("N,", 0) == 0 || start.rfind("n,", 0) == 0) break;
+      result_.node_tags.push_back(whole_number(column(line, 0, format.integer_width)));
+      auto& point = result_.coordinates.emplace_back();
+      auto begin = static_cast<std::size_t>(format.n_integers * format.integer_width);
+      for (int d = 0; d < std::min(3, format.n_reals); ++d) {
+        point[static_cast<std::size_t>(d)] = real_number(column(line, begin, format.real_width));
+        begin += static_cast<std::size_t>(format.real_width);
+      }
+    }
+    check_total("nodes", announced(fields, fields.size() > 2 && lower(fields[2]) == "solid" ? 4 : 3),
+                result_.node_tags.size() - before);
+    has_nodes_ = true;
+  }
+
+  void read_elements(const std::vector<std::string>& fields) {
+    if (fields.size() < 3 || lower(fields[2]) != "solid") {
+      cursor_.fail("EBLOCK without SOLID, as for surface and contact elements; allowed are solid elements only");
+    }
+    const Format format = read_format();
+    const std::size_t before = result_.n_elements();
+    for (;;) {
+      const std::vector<std::int64_t> line = integers(data_line(), format);
+      if (!line.empty() && line[0] == -1) break;
+      if (line.size() < n_fields) {
+        cursor_.fail(fmt::format("an element with {} fields; {} and its nodes are needed", line.size(), n_fields));
+      }
+      read_element(line, format);
+    }
+    check_total("elements", announced(fields, 4), result_.n_elements() - before);
+    has_elements_ = true;
+  }
+
+  void read_element(const std::vector<std::int64_t>& line, const Format& format) {
+    const std::int64_t number = line[number_field];
+    const std::size_t n_corners = corners_of(number, line[type_field]);
+    if (line[count_field] != static_cast<std::int64_t>(n_corners)) {
+      cursor_.fail(fmt::format("element {} has {} nodes; its type has {}", number, line[count_field], n_corners));
+    }
+    Nodes nodes(line.begin() + n_fields, line.end());
+    if (nodes.size() < std::min(n_corners, nodes_in_line)) {
+      const auto rest = integers(data_line(), format);
+      nodes.insert(nodes.end(), rest.begin(), rest.end());
+    }
+    if (nodes.size() != n_corners) {
+      cursor_.fail(fmt::format("element {} announces {} nodes, but has {}", number, n_corners, nodes.size()));
+    }
+    const Reduced reduced = n_corners == 4 ? reduced_plane(nodes, number) : reduced_solid(nodes, number);
+    result_.add_element(number, reduced.shape, 0, reduced.nodes);
+    materials_.push_back(line[material_field]);
+  }
+
+  std::size_t corners_of(std::int64_t element, std::int64_t type) const {
+    const auto kind = kinds_.find(type);
+    if (kind == kinds_.end()) {
+      cursor_.fail(fmt::format("element {} has type {}, which no ET command defines before it", element, type));
+    }
+    const auto corners = corners_of_kind.find(kind->second);
+    if (corners == corners_of_kind.end()) {
+      cursor_.fail(
+          fmt::format("element {} is of ANSYS' type {}; allowed are PLANE182 and PLANE42 in 2D, SOLID185 and "
+                      "SOLID45 in 3D (unselect others before CDWRITE)",
+                      element, kind->second));
+    }
+    return corners->second;
+  }
+
+  /// A triangle has its last node twice.
+  Reduced reduced_plane(const Nodes& nodes, std::int64_t number) const {
+    const Nodes ring = without_repetition(nodes);
+    if (ring.size() == 4 && n_different(ring) == 4) return {Shape::quadrangle, ring};
+    if (ring.size() == 3 && n_different(ring) == 3) return {Shape::triangle, ring};
+    cursor_.fail(fmt::format("element {} has nodes {}, which are the corners of no triangle or quadrangle", number,
+                             fmt::join(nodes, ", ")));
+  }
+
+  /// A wedge has three nodes in its lower and in its upper face, a pyramid four and one, a tetrahedron three and one.
+  Reduced reduced_solid(const Nodes& nodes, std::int64_t number) const {
+    if (n_different(nodes) == nodes.size()) return {Shape::hexahedron, nodes};
+    const Nodes lower_face = without_repetition({nodes.begin(), nodes.begin() + 4});
+    const Nodes upper_face = without_repetition({nodes.begin() + 4, nodes.end()});
+    const std::map<std::pair<std::size_t, std::size_t>, Shape> collapsed = {
+        {{3, 3}, Shape::wedge}, {{4, 1}, Shape::pyramid}, {{3, 1}, Shape::tetrahedron}};
+    const auto shape = collapsed.find({lower_face.size(), upper_face.size()});
+    Nodes corners = lower_face;
+    corners.insert(corners.end(), upper_face.begin(), upper_face.end());
+    if (shape != collapsed.end() && n_different(corners) == corners.size()) return {shape->second, corners};
+    cursor_.fail(
+        fmt::format("element {} has nodes {}, which are the corners of no hexahedron, wedge, pyramid or tetrahedron",
+                    number, fmt::join(nodes, ", ")));
+  }
+
+  // ---- components ----
+
+  /// Numbers, a negative one closing a run from the number before it.
+  void read_component(const std::vector<std::string>& fields) {
+    if (fields.size() < 4) cursor_.fail("CMBLOCK without a name, a kind and a count");
+    const std::string kind = lower(fields[2]).substr(0, 4);
+    const std::size_t count = cursor_.checked(announced(fields, 3), 1, 1);
+    const Format format = read_format();
+    Component component{fields[1], {}};
+    for (std::size_t n = 0; n < count;) {
+      const std::vector<std::int64_t> values = integers(data_line(), format);
+      if (values.empty() || values.size() > count - n) {
+        cursor_.fail(fmt::format("component \"{}\" announces {} numbers, but has {}", excerpt(component.name), count,
+                                 n + values.size()));
+      }
+      for (const std::int64_t value : values) extend(component, value);
+      n += values.size();
+    }
+    if (kind == "node") node_components_.push_back(std::move(component));
+    if (kind == "elem") element_components_.push_back(std::move(component));
+  }
+
+  void extend(Component& component, std::int64_t value) const {
+    auto& runs = component.runs;
+    const std::int64_t last = runs.empty() ? 0 : runs.back().second;
+    const bool closes_run = value < 0 && !runs.empty() && runs.back().first == last && value < -last;
+    if (closes_run) {
+      runs.back().second = value == INT64_MIN ? INT64_MAX : -value;
+    } else if (value > last) {
+      runs.emplace_back(value, value);
+    } else {
+      cursor_.fail(
+          fmt::format("component \"{}\" has {} after {}; allowed are ascending numbers, and -n after m for m to "
+                      "n",
+                      excerpt(component.name), value, last));
+    }
+  }
+
+  /// The places in an ascending list of the numbers in a component.
+  template <class Use>
+  static void for_each_in(const Component& component, const std::vector<std::int64_t>& ascending, Use use) {
+    for (const auto& [first, last] : component.runs) {
+      auto it = std::lower_bound(ascending.begin(), ascending.end(), first);
+      for (; it != ascending.end() && *it <= last; ++it) use(*it);
+    }
+  }
+
+  void add_node_sets() {
+    int number = 0;
+    std::set<std::string> names;
+    for (const Component& component : node_components_) {
+      if (!names.insert(component.name).second) {
+        cursor_.fail(fmt::format("two components are called \"{}\"", excerpt(component.name)));
+      }
+      const GroupKey key{0, ++number};
+      result_.group_names[key] = component.name;
+      const int list = result_.add_group_list({number});
+      for_each_in(component, sorted_tags_,
+                  [&](std::int64_t node) { result_.add_element(node, Shape::point, list, {node}); });
+    }
+  }
+
+  void add_blocks() {
+    const std::vector<int> by_component = component_of_elements();
+    const bool all_in_one = std::find(by_component.begin(), by_component.end(), -1) == by_component.end();
+    std::map<std::pair<int, std::int64_t>, int> list_of_group;
+    for (std::size_t e = 0; e < materials_.size(); ++e) {
+      const std::int64_t group = all_in_one ? by_component[e] : materials_[e];
+      const int element_dimension = dimension(result_.shapes[e]);
+      auto [entry, is_new] = list_of_group.emplace(std::make_pair(element_dimension, group), 0);
+      if (is_new) {
+        const int number = static_cast<int>(list_of_group.size());
+        entry->second = result_.add_group_list({number});
+        result_.group_names[{element_dimension, number}] =
+            all_in_one ? element_components_[static_cast<std::size_t>(group)].name : fmt::format("material_{}", group);
+      }
+      result_.element_groups[e] = entry->second;
+    }
+  }
+
+  /// For each element the one component that it is in, or -1.
+  std::vector<int> component_of_elements() const {
+    std::map<std::int64_t, std::size_t> place;
+    for (std::size_t e = 0; e < result_.n_elements(); ++e) place[result_.element_tags[e]] = e;
+    std::vector<std::int64_t> ascending;
+    for (const auto& entry : place) ascending.push_back(entry.first);
+    std::vector<int> component(result_.n_elements(), -1), n_components(result_.n_elements(), 0);
+    for (std::size_t c = 0; c < element_components_.size(); ++c) {
+      for_each_in(element_components_[c], ascending, [&](std::int64_t element) {
+        component[place.at(element)] = static_cast<int>(c);
+        ++n_components[place.at(element)];
+      });
+    }
+    for (std::size_t e = 0; e < component.size(); ++e) {
+      if (n_components[e] != 1) component[e] = -1;
+    }
+    return component;
+  }
+
+  FileCursor cursor_;
+  MeshFile result_;
+  bool has_nodes_ = false, has_elements_ = false;
+  std::map<std::int64_t, int> kinds_;    ///< by the number that ET gives them
+  std::vector<std::int64_t> materials_;  ///< by element
+  std::vector<Component> node_components_, element_components_;
+  std::vector<std::int64_t> sorted_tags_;
+};
+
+}  // namespace
+
+MeshFile read_ansys_file(const std::string& file) { return Reader(file).read(); }
+
+}  // namespace perimorph::mesh_files

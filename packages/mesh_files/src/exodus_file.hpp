@@ -1,0 +1,14 @@
+#pragma once
+
+#include "mesh_file.hpp"
+
+namespace perimorph::mesh_files {
+
+/// Reads the mesh of an Exodus file (netCDF, classic or HDF5) with its blocks, node sets and side sets. A node set with
+/// the name and nodes of a side set is the same group. What has no name is called by its number: "block_1", "nodes_2",
+/// "sides_3". Local.
+/// @throws UserError if the file cannot be read, is truncated or damaged, announces more than it can hold, or has
+///         elements of another type than TRI3, QUAD4, TETRA4, PYRAMID5, WEDGE6, HEX8.
+MeshFile read_exodus_file(const std::string& file);
+
+}  // namespace perimorph::mesh_files

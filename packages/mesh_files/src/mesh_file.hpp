@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "perimorph/mesh/element_type.hpp"
+
+namespace perimorph::mesh_files {
+
+/// What a mesh file may consist of: points and linear elements. The first ones serve as members of groups only,
+/// the others are in the order of mesh::ElementType.
+enum class Shape : std::uint8_t { point, line, triangle, quadrangle, tetrahedron, pyramid, wedge, hexahedron };
+
+int dimension(Shape shape);
+int n_nodes(Shape shape);
+mesh::ElementType element_type(Shape shape);  ///< of a triangle or what comes after it
+
+/// A group of elements of one dimension: that dimension, and a number.
+using GroupKey = std::pair<int, int>;
+
+/// What to do about a mistake in the mesh, in the terms of the program that wrote it.
+struct Advice {
+  std::string no_elements, unused_nodes, reversed;
+};
+
+/// What a mesh file says, whatever its format; each reader checks its own format, build_mesh() all the rest. Node sets
+/// are groups of points, side sets groups of lines (2D) or faces (3D).
+struct MeshFile {
+  std::string name;  ///< of the file, for messages
+  Advice advice;
+
+  std::map<GroupKey, std::string> group_names;  ///< of all groups that elements are in
+
+  std::vector<std::int64_t> node_tags;
+  std::vector<std::array<double, 3>> coordinates;  ///< [length]
+
+  std::vector<std::int64_t> element_tags;
+  std::vector<Shape> shapes;
+  std::vector<int> element_groups;            ///< index into group_lists
+  std::vector<std::size_t> first_node = {0};  ///< nodes of element e: element_nodes[first_node[e]] ...
+  std::vector<std::int64_t> element_nodes;    ///< node tags
+
+  /// Numbers of groups (of the element's dimension) that elements may be in together; the first is empty.
+  std::vector<std::vector<int>> group_lists = {{}};
+
+  /// Formats without side sets: the sides of the body's boundary with all their nodes in a node set make one.
+  bool sides_follow_from_node_sets = false;
+
+  std::size_t n_elements() const { return element_tags.size(); }
+
+  /// Adds an element of which the nodes still have to follow in element_nodes; then end_element().
+  void begin_element(std::int64_t tag, Shape shape, int group_list);
+  void end_element() { first_node.push_back(element_nodes.size()); }
+  void add_element(std::int64_t tag, Shape shape, int group_list, const std::vector<std::int64_t>& nodes);
+
+  /// The index of a new list in group_lists.
+  int add_group_list(std::vector<int> groups);
+};
+
+}  // namespace perimorph::mesh_files
