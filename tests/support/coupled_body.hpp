@@ -118,7 +118,7 @@ struct CoupledBody {
 
   /// Returns the bonds that it breaks.
   std::vector<std::size_t> break_bonds(std::vector<std::size_t> broken) {
-    for (const auto b : broken) bonds.set_broken(bonds.pair_of(b), b);
+    for (const auto b : broken) bonds.set_broken(b);
     return broken;
   }
 

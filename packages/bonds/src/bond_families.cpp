@@ -89,7 +89,7 @@ double BondFamilies<dim>::stiffness_on_the_fly(int first_point, int second_point
 }
 
 template <int dim>
-int BondFamilies<dim>::pair_of(Bond b) const {
+int BondFamilies<dim>::pair_of(BondId b) const {
   return static_cast<int>(std::upper_bound(first_bond_.begin(), first_bond_.end(), b) - first_bond_.begin()) - 1;
 }
 
@@ -103,10 +103,10 @@ std::size_t BondFamilies<dim>::bytes() const {
 }
 
 template <int dim>
-typename BondFamilies<dim>::Bond BondFamilies<dim>::find(int first, int first_end, int second, int second_end) const {
+BondId BondFamilies<dim>::find(int first, int first_end, int second, int second_end) const {
   for (const int p : pairs_of_[first]) {
     if (pairs_[p].first != first || pairs_[p].second != second) continue;
-    for (Bond b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
+    for (BondId b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
       if (this->first_end(b) == first_end && this->second_end(b) == second_end) return b;
     }
   }
@@ -114,13 +114,12 @@ typename BondFamilies<dim>::Bond BondFamilies<dim>::find(int first, int first_en
 }
 
 template <int dim>
-void BondFamilies<dim>::set_broken(int p, Bond b) {
-  const auto [first, second] = pairs_[p];
-  const int i = points_.first(first) + first_end(b), j = points_.first(second) + second_end(b);
+void BondFamilies<dim>::set_broken(BondId b) {
+  const Bond<dim> bond = this->bond(b);
   ends_[b] = static_cast<std::uint16_t>(ends_[b] | broken_bit);
-  damaged_[first] = damaged_[second] = 1;
-  lost_volume_[i] += points_.weight(j);
-  lost_volume_[j] += points_.weight(i);
+  damaged_[bond.first_element] = damaged_[bond.second_element] = 1;
+  lost_volume_[bond.first_point] += points_.weight(bond.second_point);
+  lost_volume_[bond.second_point] += points_.weight(bond.first_point);
 }
 
 template <int dim>
@@ -133,18 +132,14 @@ typename BondFamilies<dim>::Extremes BondFamilies<dim>::neighbourhood_extremes(
     extremes.smallest[i] = std::min(extremes.smallest[i], value);
     extremes.largest[i] = std::max(extremes.largest[i], value);
   };
-  for (int p = 0; p < n_pairs(); ++p) {
-    const int first_a = points_.first(pairs_[p].first), first_b = points_.first(pairs_[p].second);
-    for (Bond b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
-      const int i = first_a + first_end(b), j = first_b + second_end(b);
-      include(i, alpha(j));
-      include(j, alpha(i));
-    }
-  }
+  for_each_bond([&](const Bond<dim>& bond) {
+    include(bond.first_point, alpha(bond.second_point));
+    include(bond.second_point, alpha(bond.first_point));
+  });
   return extremes;
 }
 
-/// visit(first element of the pair, bond, |xi + eta|^2 / |xi|^2)
+/// visit(bond, |xi + eta|^2 / |xi|^2)
 template <int dim>
 template <class Visit>
 void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& displacements, double critical_stretch,
@@ -157,15 +152,12 @@ void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& di
         classes[second] != morphing::ElementClass::pd) {
       continue;
     }
-    const int first_a = points_.first(first), first_b = points_.first(second);
-    for (Bond b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
-      if (broken(b)) continue;
-      const int i = first_a + first_end(b), j = first_b + second_end(b);
-      const Point<dim> xi = points_.position(j) - points_.position(i);
-      const Point<dim> eta = displacements[j] - displacements[i];
-      if ((xi + eta).squaredNorm() < critical * xi.squaredNorm()) continue;
-      visit(first, b, (xi + eta).squaredNorm() / xi.squaredNorm());
-    }
+    for_each_bond(p, [&](const Bond<dim>& bond) {
+      if (bond.is_broken) return;
+      const Point<dim> eta = displacements[bond.second_point] - displacements[bond.first_point];
+      if ((bond.xi + eta).squaredNorm() < critical * bond.xi.squaredNorm()) return;
+      visit(bond, (bond.xi + eta).squaredNorm() / bond.xi.squaredNorm());
+    });
   }
 }
 
@@ -174,20 +166,20 @@ std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim
                                                      double critical_stretch,
                                                      const std::vector<morphing::ElementClass>& classes) const {
   std::vector<double> stretches;
-  for_each_overstretched(displacements, critical_stretch, classes, [&](int first, Bond, double squared_ratio) {
-    if (first < mesh_.n_owned_elements) stretches.push_back(std::sqrt(squared_ratio) - 1.);
+  for_each_overstretched(displacements, critical_stretch, classes, [&](const Bond<dim>& bond, double squared_ratio) {
+    if (bond.first_element < mesh_.n_owned_elements) stretches.push_back(std::sqrt(squared_ratio) - 1.);
   });
   return stretches;
 }
 
 template <int dim>
-std::vector<typename BondFamilies<dim>::Bond> BondFamilies<dim>::break_overstretched(
-    const std::vector<Point<dim>>& displacements, double critical_stretch,
-    const std::vector<morphing::ElementClass>& classes) {
-  std::vector<Bond> newly_broken;
+std::vector<BondId> BondFamilies<dim>::break_overstretched(const std::vector<Point<dim>>& displacements,
+                                                           double critical_stretch,
+                                                           const std::vector<morphing::ElementClass>& classes) {
+  std::vector<BondId> newly_broken;
   for_each_overstretched(displacements, critical_stretch, classes,
-                         [&](int, Bond b, double) { newly_broken.push_back(b); });
-  for (const Bond b : newly_broken) set_broken(pair_of(b), b);
+                         [&](const Bond<dim>& bond, double) { newly_broken.push_back(bond.id); });
+  for (const BondId b : newly_broken) set_broken(b);
   return newly_broken;
 }
 

@@ -39,7 +39,7 @@ Point<3> normal(const OpenSide<3>& side) {
 template <int dim>
 bool is_open(const BondFamilies<dim>& bonds, int p) {
   std::size_t n_broken = 0;
-  for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) n_broken += bonds.broken(b);
+  bonds.for_each_bond(p, [&](const Bond<dim>& bond) { n_broken += bond.is_broken; });
   return 2 * n_broken > bonds.first_bond(p + 1) - bonds.first_bond(p);
 }
 

@@ -422,7 +422,7 @@ void Body<dim>::restore(const BodyState<dim>& state) {
   grow_again(state);
   broken_by_call_ = find_broken(state);
   const auto break_again = [&](const std::vector<std::size_t>& broken) {
-    for (const auto bond : broken) bonds_.set_broken(bonds_.pair_of(bond), bond);
+    for (const auto bond : broken) bonds_.set_broken(bond);
   };
   auto next = broken_by_call_.begin();
   for (; next != broken_by_call_.end() && next->first <= state.break_calls_before_topology; ++next) {

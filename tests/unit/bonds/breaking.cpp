@@ -133,7 +133,7 @@ TEST_F(Breaking, DamageIsTheShareOfTheFamilysVolumeThatIsLost) {
     family[j] += body.points.weight(i);
     const auto [first, second] = body.bonds.pair(p);
     if (first == second || b % 5 != 0 || first > 20) return;
-    body.bonds.set_broken(p, b);
+    body.bonds.set_broken(b);
     lost[i] += body.points.weight(j);
     lost[j] += body.points.weight(i);
     is_damaged[first] = is_damaged[second] = 1;

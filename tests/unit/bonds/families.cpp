@@ -105,7 +105,7 @@ TEST_P(BondFamilies, KeepTheirBrokenBondsWhenTheyGrow) {
   std::set<std::pair<GlobalId, GlobalId>> broken;
   body.for_each_bond([&](int p, std::size_t b) {
     if (b % 7 != 0 || body.bonds.pair(p).first == body.bonds.pair(p).second) return;
-    body.bonds.set_broken(p, b);
+    body.bonds.set_broken(b);
     broken.insert(body.global_ends(p, b));
   });
 
@@ -113,6 +113,28 @@ TEST_P(BondFamilies, KeepTheirBrokenBondsWhenTheyGrow) {
 
   body.for_each_bond(
       [&](int p, std::size_t b) { EXPECT_EQ(body.bonds.broken(b), broken.count(body.global_ends(p, b)) == 1); });
+}
+
+TEST_P(BondFamilies, HandOutEachBondOnceWithItsEndsItsVectorAndItsState) {
+  body.grow({Zone<2>::everything()});
+  for (std::size_t b = 0; b < body.bonds.n_bonds(); b += 3) body.bonds.set_broken(b);
+
+  const BondList springs = body.list();
+  std::size_t next = 0;
+  body.bonds.for_each_bond([&](const bonds::Bond<2>& bond) {
+    ASSERT_EQ(bond.id, next++);
+    const int p = body.bonds.pair_of(bond.id);
+    EXPECT_EQ(bond.first_element, body.bonds.pair(p).first);
+    EXPECT_EQ(bond.second_element, body.bonds.pair(p).second);
+    EXPECT_EQ(std::pair(bond.first_point, bond.second_point), body.ends(p, bond.id));
+    EXPECT_EQ(body.points.global_id(bond.first_element, bond.first_end), body.global_ends(p, bond.id).first);
+    EXPECT_EQ(body.points.global_id(bond.second_element, bond.second_end), body.global_ends(p, bond.id).second);
+    EXPECT_EQ(bond.xi, body.points.position(bond.second_point) - body.points.position(bond.first_point));
+    EXPECT_EQ(body.bonds.stiffness(bond), springs.at(body.global_ends(p, bond.id)));
+    EXPECT_EQ(bond.is_broken, bond.id % 3 == 0);
+    EXPECT_EQ(body.bonds.bond(bond.id).second_point, bond.second_point);
+  });
+  EXPECT_EQ(next, body.bonds.n_bonds());
 }
 
 TEST_P(BondFamilies, ListTheElementWithTheLowerGlobalIdFirst) {

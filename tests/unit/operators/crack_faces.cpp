@@ -76,7 +76,7 @@ TEST(CrackFaces, AreThereOnceAllBondsBetweenTwoElementsAreBroken) {
     const Point2 a = mesh::centroid(body.mesh, first), b = mesh::centroid(body.mesh, second);
     const bool is_broken = std::abs(a[1] - 3.5) < 0.1 && std::abs(b[1] - 3.5) < 0.1 && (a[0] < 5.) != (b[0] < 5.);
     for (auto bond = body.bonds.first_bond(p); is_broken && bond < body.bonds.first_bond(p + 1); ++bond) {
-      body.bonds.set_broken(p, bond);
+      body.bonds.set_broken(bond);
     }
   }
   const auto overlap = largest(body, closed);

@@ -53,7 +53,7 @@ class MatrixFreeStiffness : public ::testing::TestWithParam<std::tuple<bool, boo
       if (first == second || (body.mesh.element_ids[first] + body.mesh.element_ids[second]) % 3 != 0) continue;
       for (auto b = body.bonds.first_bond(p); b < body.bonds.first_bond(p + 1); ++b) {
         if ((body.bonds.first_end(b) + body.bonds.second_end(b)) % 2 == 0) continue;
-        body.bonds.set_broken(p, b);
+        body.bonds.set_broken(b);
         broken.push_back(b);
       }
     }

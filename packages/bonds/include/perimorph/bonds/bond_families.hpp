@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "perimorph/bonds/bond.hpp"
 #include "perimorph/bonds/visibility.hpp"
 #include "perimorph/materials/micromodulus.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
@@ -23,8 +24,6 @@ enum class Stiffness { stored, on_the_fly };
 template <int dim>
 class BondFamilies {
  public:
-  using Bond = std::size_t;
-
   /// Local. The arguments must outlive this.
   /// @param active elements around the nodes that this rank owns (mesh::active_elements)
   BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, std::vector<char> active,
@@ -35,32 +34,43 @@ class BondFamilies {
   void extend(const std::vector<int>& elements);
 
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
-  Bond n_bonds() const { return ends_.size(); }
+  BondId n_bonds() const { return ends_.size(); }
   const ElementPair& pair(int p) const { return pairs_[p]; }
-  Bond first_bond(int p) const { return first_bond_[p]; }
+  BondId first_bond(int p) const { return first_bond_[p]; }
   const std::vector<int>& pairs_of(int element) const { return pairs_of_[element]; }
   bool is_active(int element) const { return active_[element]; }
 
+  /// A bond of a pair, or one whose pair has to be looked up.
+  Bond<dim> bond(int pair, BondId b) const;
+  Bond<dim> bond(BondId b) const { return bond(pair_of(b), b); }
+
+  /// Calls visit(const Bond<dim>&) for each bond of a pair, or of all pairs, by ascending number.
+  template <class Visit>
+  void for_each_bond(int pair, Visit&& visit) const;
+  template <class Visit>
+  void for_each_bond(Visit&& visit) const;
+
   /// Points at the bond's ends, counted within their elements.
-  int first_end(Bond b) const { return (ends_[b] & ~broken_bit) / elements::max_points; }
-  int second_end(Bond b) const { return (ends_[b] & ~broken_bit) % elements::max_points; }
+  int first_end(BondId b) const { return (ends_[b] & ~broken_bit) / elements::max_points; }
+  int second_end(BondId b) const { return (ends_[b] & ~broken_bit) % elements::max_points; }
   /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; in single
   /// precision, so that every form of the operator has the same bonds.
-  double stiffness(Bond b, int first_point, int second_point) const {
+  double stiffness(BondId b, int first_point, int second_point) const {
     return computes_stiffness() ? stiffness_on_the_fly(first_point, second_point) : stiffness_[b];
   }
+  double stiffness(const Bond<dim>& bond) const { return stiffness(bond.id, bond.first_point, bond.second_point); }
   bool computes_stiffness() const { return kept_ == Stiffness::on_the_fly; }
   const materials::Micromodulus& micromodulus() const { return micromodulus_; }
-  bool broken(Bond b) const { return (ends_[b] & broken_bit) != 0; }
-  void set_broken(int pair, Bond b);
-  int pair_of(Bond b) const;
+  bool broken(BondId b) const { return (ends_[b] & broken_bit) != 0; }
+  void set_broken(BondId b);
+  int pair_of(BondId b) const;
 
   /// Of memory, most of it 6 bytes a bond; 2 if stiffness is computed on the fly.
   std::size_t bytes() const;
 
   /// The bond between two points of different elements, each told by element and number within it; n_bonds() if this
   /// rank has none. Local.
-  Bond find(int first, int first_end, int second, int second_end) const;
+  BondId find(int first, int first_end, int second, int second_end) const;
 
   /// Share of a point's bonds, by volume, that are broken (Silling and Askari 2005). For active elements.
   double damage(int point) const { return lost_volume_[point] / std::max(family_volume_[point], 1e-300); }
@@ -81,8 +91,8 @@ class BondFamilies {
   /// Breaks every intact bond whose stretch reaches the critical one [WHL19, eq. 6, 7], between two different elements
   /// that both may break. Returns them, ascending. Local: every rank that holds a bond decides alike.
   /// @param displacements at the points, [length]; only those of elements with bonds are read
-  std::vector<Bond> break_overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
-                                        const std::vector<morphing::ElementClass>& classes);
+  std::vector<BondId> break_overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
+                                          const std::vector<morphing::ElementClass>& classes);
 
  private:
   const mesh::Mesh<dim>& mesh_;
@@ -98,7 +108,7 @@ class BondFamilies {
   std::vector<char> searched_;
 
   std::vector<ElementPair> pairs_;
-  std::vector<Bond> first_bond_ = {0};
+  std::vector<BondId> first_bond_ = {0};
   std::vector<std::vector<int>> pairs_of_;
   static constexpr unsigned broken_bit = 1u << 15;  ///< of ends_, the rest of which is below 27 * 27
   std::vector<std::uint16_t> ends_;
@@ -112,5 +122,25 @@ class BondFamilies {
                               const std::vector<morphing::ElementClass>& classes, Visit visit) const;
   void add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles);
 };
+
+template <int dim>
+inline Bond<dim> BondFamilies<dim>::bond(int pair, BondId b) const {
+  const auto [first, second] = pairs_[pair];
+  const int first_end = this->first_end(b), second_end = this->second_end(b);
+  const int i = points_.first(first) + first_end, j = points_.first(second) + second_end;
+  return {b, first, second, first_end, second_end, i, j, points_.position(j) - points_.position(i), broken(b)};
+}
+
+template <int dim>
+template <class Visit>
+void BondFamilies<dim>::for_each_bond(int pair, Visit&& visit) const {
+  for (BondId b = first_bond_[pair]; b < first_bond_[pair + 1]; ++b) visit(bond(pair, b));
+}
+
+template <int dim>
+template <class Visit>
+void BondFamilies<dim>::for_each_bond(Visit&& visit) const {
+  for (int p = 0; p < n_pairs(); ++p) for_each_bond(p, visit);
+}
 
 }  // namespace perimorph::bonds
