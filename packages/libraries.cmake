@@ -1,8 +1,15 @@
-# Every library from outside, as one target each. A missing one says which Debian package brings it.
+# Every library from outside, as one target each, here and for those who find_package(Perimorph). A missing one says which
+# Debian package brings it.
 
-function(perimorph_missing what package)
-  message(FATAL_ERROR "${what} was not found. Install it with: apt-get install ${package}   (tools/install-dependencies installs everything)")
-endfunction()
+macro(perimorph_missing what package)
+  set(perimorph_message "${what} was not found. Install it with: apt-get install ${package}   (tools/install-dependencies installs everything)")
+  if(NOT CMAKE_FIND_PACKAGE_NAME)
+    message(FATAL_ERROR "${perimorph_message}")
+  endif()
+  set(${CMAKE_FIND_PACKAGE_NAME}_FOUND FALSE)
+  set(${CMAKE_FIND_PACKAGE_NAME}_NOT_FOUND_MESSAGE "${perimorph_message}")
+  return()
+endmacro()
 
 macro(perimorph_find what debian_package)
   find_package(${what} QUIET ${ARGN})
@@ -15,7 +22,6 @@ perimorph_find(MPI libopenmpi-dev COMPONENTS C CXX)
 perimorph_find(Trilinos "trilinos-all-dev libptscotch-dev" COMPONENTS Tpetra Belos Ifpack2 MueLu Zoltan2 Intrepid2 Shards Teuchos)
 perimorph_find(Eigen3 libeigen3-dev)
 perimorph_find(nanoflann libnanoflann-dev)
-perimorph_find(CLI11 libcli11-dev)
 perimorph_find(fmt libfmt-dev)
 perimorph_find(spdlog libspdlog-dev)
 perimorph_find(pugixml libpugixml-dev)
@@ -35,15 +41,15 @@ if(NOT PTSCOTCH_LIBRARY)
   perimorph_missing(PT-Scotch libptscotch-dev)
 endif()
 
-add_library(perimorph_trilinos INTERFACE)
-target_include_directories(perimorph_trilinos SYSTEM INTERFACE ${Trilinos_INCLUDE_DIRS} ${Trilinos_TPL_INCLUDE_DIRS})
+add_library(perimorph_trilinos INTERFACE IMPORTED)
+target_include_directories(perimorph_trilinos INTERFACE ${Trilinos_INCLUDE_DIRS} ${Trilinos_TPL_INCLUDE_DIRS})
 target_link_libraries(perimorph_trilinos INTERFACE ${Trilinos_LIBRARIES} MPI::MPI_CXX)
 
 # libexoIIv2c carries the parallel netCDF and HDF5: never link the serial ones beside it.
-add_library(perimorph_exodus INTERFACE)
-target_include_directories(perimorph_exodus SYSTEM INTERFACE ${EXODUSII_INCLUDE_DIR})
+add_library(perimorph_exodus INTERFACE IMPORTED)
+target_include_directories(perimorph_exodus INTERFACE ${EXODUSII_INCLUDE_DIR})
 target_link_libraries(perimorph_exodus INTERFACE ${EXODUSII_LIBRARY} MPI::MPI_CXX)
 
-add_library(perimorph_hdf5 INTERFACE)
-target_include_directories(perimorph_hdf5 SYSTEM INTERFACE ${HDF5_INCLUDE_DIR})
+add_library(perimorph_hdf5 INTERFACE IMPORTED)
+target_include_directories(perimorph_hdf5 INTERFACE ${HDF5_INCLUDE_DIR})
 target_link_libraries(perimorph_hdf5 INTERFACE ${HDF5_LIBRARY} MPI::MPI_CXX)
