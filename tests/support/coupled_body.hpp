@@ -53,7 +53,7 @@ struct CoupledBody {
         c0(materials::calibrate<2>(materials::ElasticModel::plane_stress, youngs_modulus, setup.characteristic_length,
                                    setup.horizon)),
         points(mesh),
-        alpha(mesh, points, morphing::Profile::linear),
+        alpha(mesh, points, morphing::BlendingFunction::linear),
         bonds(mesh, points, mesh::active_elements(mesh), c0, setup.pre_cracks, setup.kept),
         elasticity(e0, setup.policy),
         dirichlet(*comm, mesh, setup.prescribed),

@@ -57,7 +57,7 @@ fracture::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
 template <int dim>
 fracture::BodyOptions make_options(const SpecimenIn<dim>& specimen) {
   fracture::BodyOptions options{};
-  options.profile = morphing::Profile::linear;
+  options.blending_function = morphing::BlendingFunction::linear;
   options.discontinuous = specimen.discontinuous;
   options.peridynamic_stiffness = specimen.peridynamic_stiffness;
   options.growth_inner_radius = 2. * specimen.horizon;

@@ -81,7 +81,7 @@ std::vector<StretchedPlace<dim>> most_stretched(const base::Comm& comm, const Bo
   for (std::size_t i = 0; i < places.size(); ++i) {
     const bool is_exceeded = tree.within(centroids[i], seed.inner_radius).front() < static_cast<int>(i);
     const bool is_covered = std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& zone) {
-      return zone.alpha(centroids[i], morphing::Profile::linear) == 1.;
+      return zone.alpha(centroids[i], morphing::BlendingFunction::linear) == 1.;
     });
     if (!is_exceeded && !is_covered) chosen.push_back(places[i]);
   }

@@ -36,7 +36,7 @@ std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<d
   for (int e = 0; e < whole.n_elements(); ++e) {
     const auto center = mesh::centroid(whole, e);
     const bool is_in_zone = std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& seed) {
-      return seed.alpha(center, morphing::Profile::linear) > 0.;
+      return seed.alpha(center, morphing::BlendingFunction::linear) > 0.;
     });
     if (!is_in_zone) continue;
     double radius = 0.;  // of the element

@@ -54,7 +54,7 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       options_(std::move(options)),
       profile_(profile),
       points_(mesh, options_.points_per_direction),
-      alpha_(mesh, points_, options_.profile),
+      alpha_(mesh, points_, options_.blending_function),
       bonds_(
           mesh, points_, mesh::active_elements(mesh), problem.micromodulus, problem.pre_cracks,
           options.operator_form == OperatorForm::on_the_fly ? bonds::Stiffness::on_the_fly : bonds::Stiffness::stored),
@@ -537,7 +537,7 @@ Point<dim> Body<dim>::reaction(int node) const {
 
 BodyOptions body_options(const Case& input) {
   BodyOptions options;
-  options.profile = input.profile;
+  options.blending_function = input.blending_function;
   options.discontinuous = input.discontinuous;
   options.peridynamic_stiffness = input.peridynamic_stiffness;
   options.growth_inner_radius = input.growth_inner_radius;

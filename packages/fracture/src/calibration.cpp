@@ -46,7 +46,7 @@ double element_size(const base::Comm& comm, const mesh::Mesh<dim>& body, const P
   for (int e = 0; e < body.n_owned_elements; ++e) {
     const auto center = mesh::centroid(body, e);
     const bool is_in_a_seed = std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& seed) {
-      return seed.alpha(center, morphing::Profile::linear) == 1.;
+      return seed.alpha(center, morphing::BlendingFunction::linear) == 1.;
     });
     add(all, e);
     if (is_in_a_seed) add(in_seeds, e);

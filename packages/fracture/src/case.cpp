@@ -165,7 +165,7 @@ void take_material(Case& result, const ParameterList& list) {
 
 void take_zones(Case& result, const ParameterList& list) {
   const ParameterList& morphing = list.sublist("Morphing");
-  result.profile = value_of(morphing_profiles, word(morphing, "Function"));
+  result.blending_function = value_of(blending_functions, word(morphing, "Function"));
   result.discontinuous = value_of(discontinuous_elements, word(morphing, "Discontinuous Elements"));
   result.peridynamic_stiffness = value_of(peridynamic_stiffnesses, word(morphing, "Stiffness in Peridynamic Zone"));
   result.growth_inner_radius = morphing.get<double>("Growth Inner Radius") * result.horizon;

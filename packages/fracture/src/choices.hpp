@@ -31,8 +31,8 @@ inline constexpr std::array<Choice<SeedShape>, 6> seed_shapes{{{"Circle", SeedSh
 inline constexpr std::array<Choice<PreCrackShape>, 3> pre_crack_shapes{{{"Polyline", PreCrackShape::polyline, 2},
                                                                         {"Polygon", PreCrackShape::polygon, 3},
                                                                         {"Disc", PreCrackShape::disc, 3}}};
-inline constexpr std::array<Choice<MorphingProfile>, 2> morphing_profiles{
-    {{"Linear", MorphingProfile::linear}, {"Cubic", MorphingProfile::cubic}}};
+inline constexpr std::array<Choice<BlendingFunction>, 2> blending_functions{
+    {{"Linear", BlendingFunction::linear}, {"Cubic", BlendingFunction::cubic}}};
 inline constexpr std::array<Choice<DiscontinuousElements>, 2> discontinuous_elements{
     {{"On Damage", DiscontinuousElements::on_damage}, {"Whole Zone", DiscontinuousElements::whole_zone}}};
 inline constexpr std::array<Choice<PeridynamicStiffness>, 2> peridynamic_stiffnesses{

@@ -217,7 +217,7 @@ class Checks {
       for (int e = 0; e < mesh_.n_elements(); ++e) {
         const Point<dim> x = mesh::centroid(mesh_, e);
         const double reach = mesh::radius(mesh_, e);
-        if (reach <= largest || zone.alpha(x, input_.profile) < 1.) continue;
+        if (reach <= largest || zone.alpha(x, input_.blending_function) < 1.) continue;
         largest = reach;
         center = x;
       }

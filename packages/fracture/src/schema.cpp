@@ -172,7 +172,7 @@ void declare_morphing(ParameterList& root) {
   morphing.set("Function", "Linear",
                "How the morphing function alpha falls from 1 to 0 across a zone's rim, with t from 0 to 1: 1 - t, or "
                "\"Cubic\" 1 - t^2 (3 - 2 t), smooth at both ends.",
-               one_of(words(morphing_profiles)));
+               one_of(words(blending_functions)));
   morphing.set(
       "Discontinuous Elements", "On Damage",
       "Which peridynamic elements get nodes of their own: all of the zone (\"Whole Zone\", as WHL19 does), or only "

@@ -28,12 +28,12 @@ Zone<dim> Zone<dim>::everything() {
 }
 
 template <int dim>
-double Zone<dim>::alpha(const base::Point<dim>& x, Profile profile) const {
+double Zone<dim>::alpha(const base::Point<dim>& x, BlendingFunction function) const {
   const double distance = distance_to_core(x) - inner_radius;
   if (distance <= 0.) return 1.;
   if (distance >= rim) return 0.;
   const double t = distance / rim;
-  return profile == Profile::linear ? 1. - t : 1. - t * t * (3. - 2. * t);
+  return function == BlendingFunction::linear ? 1. - t : 1. - t * t * (3. - 2. * t);
 }
 
 template <int dim>
@@ -46,10 +46,10 @@ double Zone<dim>::distance_to_core(const base::Point<dim>& x) const {
 
 template <int dim>
 MorphingField<dim>::MorphingField(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
-                                  Profile profile)
+                                  BlendingFunction function)
     : mesh_(mesh),
       points_(points),
-      profile_(profile),
+      function_(function),
       alpha_(points.size(), 0.),
       carries_bonds_(mesh.n_elements(), 0) {}
 
@@ -63,7 +63,7 @@ std::vector<int> MorphingField<dim>::add(const std::vector<Zone<dim>>& zones) {
       double alpha = alpha_[p];
       for (const auto& zone : zones) {
         if (alpha == 1.) break;
-        alpha = std::max(alpha, zone.alpha(points_.position(p), profile_));
+        alpha = std::max(alpha, zone.alpha(points_.position(p), function_));
       }
       rose = rose || alpha > alpha_[p];
       alpha_[p] = alpha;

@@ -36,7 +36,7 @@ struct BondedBody {
         c0{100., characteristic_length, horizon},
         mesh(mesh::distribute(*comm, whole, horizon)),
         points(mesh),
-        alpha(mesh, points, morphing::Profile::linear),
+        alpha(mesh, points, morphing::BlendingFunction::linear),
         bonds(mesh, points, mesh::active_elements(mesh), c0, pre_cracks) {}
 
   void grow(const std::vector<Zone<2>>& zones) { bonds.extend(alpha.add(zones)); }

@@ -51,7 +51,7 @@ class BondFamilies : public testing::TestWithParam<Example> {
   std::vector<char> carrying(const Zone<2>& zone) const {
     std::vector<char> carries(body.whole.n_elements(), 0);
     for (const auto& p : plain_points(body.whole)) {
-      if (zone.alpha(p.x, morphing::Profile::linear) > 0.) carries[p.element] = 1;
+      if (zone.alpha(p.x, morphing::BlendingFunction::linear) > 0.) carries[p.element] = 1;
     }
     return carries;
   }

@@ -21,7 +21,7 @@ using mesh::ElementType;
 struct Bonded {
   mesh::Mesh<3> mesh;
   elements::MaterialPoints<3> points{mesh};
-  morphing::MorphingField<3> alpha{mesh, points, morphing::Profile::linear};
+  morphing::MorphingField<3> alpha{mesh, points, morphing::BlendingFunction::linear};
   bonds::BondFamilies<3> bonds;
 
   Bonded(const mesh::Mesh<3>& whole, const Cracks& pre_cracks)

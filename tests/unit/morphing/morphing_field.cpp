@@ -8,14 +8,14 @@
 namespace perimorph::tests {
 namespace {
 
-using morphing::Profile;
+using morphing::BlendingFunction;
 using morphing::Zone;
 
 constexpr double rounding = 1e-15;
 
-TEST(Zone, LinearProfileFallsEvenlyFromInnerToOuterRadius) {
+TEST(Zone, LinearFunctionFallsEvenlyFromInnerToOuterRadius) {
   const auto zone = Zone<2>::ball({1., 2.}, 3., 5.);
-  const auto at = [&](double r) { return zone.alpha({1. + 0.6 * r, 2. - 0.8 * r}, Profile::linear); };
+  const auto at = [&](double r) { return zone.alpha({1. + 0.6 * r, 2. - 0.8 * r}, BlendingFunction::linear); };
   EXPECT_EQ(at(0.), 1.);
   EXPECT_EQ(at(2.999), 1.);
   EXPECT_NEAR(at(3.5), 0.75, rounding);
@@ -24,9 +24,9 @@ TEST(Zone, LinearProfileFallsEvenlyFromInnerToOuterRadius) {
   EXPECT_EQ(at(5.001), 0.);
 }
 
-TEST(Zone, CubicProfileStartsAndEndsFlat) {
+TEST(Zone, CubicFunctionStartsAndEndsFlat) {
   const auto zone = Zone<2>::ball({0., 0.}, 1., 2.);
-  const auto at = [&](double r) { return zone.alpha({r, 0.}, Profile::cubic); };
+  const auto at = [&](double r) { return zone.alpha({r, 0.}, BlendingFunction::cubic); };
   EXPECT_NEAR(at(1.5), 0.5, rounding);
   EXPECT_NEAR(at(1.25), 1. - 3. / 16. + 2. / 64., rounding);
   EXPECT_NEAR(at(1.001), 1., 4e-6);  // 3 t^2
@@ -35,7 +35,7 @@ TEST(Zone, CubicProfileStartsAndEndsFlat) {
 
 TEST(Zone, BoxFallsOverItsRimOnAllSides) {
   const auto zone = Zone<2>::box({0., 0.}, {4., 2.}, 2.);
-  const auto at = [&](double x, double y) { return zone.alpha({x, y}, Profile::linear); };
+  const auto at = [&](double x, double y) { return zone.alpha({x, y}, BlendingFunction::linear); };
   EXPECT_EQ(at(0.1, 1.9), 1.);
   EXPECT_NEAR(at(-1., 1.), 0.5, rounding);
   EXPECT_NEAR(at(5., 1.), 0.5, rounding);
@@ -45,20 +45,20 @@ TEST(Zone, BoxFallsOverItsRimOnAllSides) {
 }
 
 TEST(Zone, EverythingIsOneEverywhere) {
-  for (const auto profile : {Profile::linear, Profile::cubic}) {
-    EXPECT_EQ(Zone<2>::everything().alpha({1e6, -1e6}, profile), 1.);
-    EXPECT_EQ(Zone<3>::everything().alpha({0., 0., 1e9}, profile), 1.);
+  for (const auto function : {BlendingFunction::linear, BlendingFunction::cubic}) {
+    EXPECT_EQ(Zone<2>::everything().alpha({1e6, -1e6}, function), 1.);
+    EXPECT_EQ(Zone<3>::everything().alpha({0., 0., 1e9}, function), 1.);
   }
 }
 
 TEST(Zone, BallInSpaceIsRound) {
   const auto zone = Zone<3>::ball({0., 0., 0.}, 1., 3.);
-  EXPECT_NEAR(zone.alpha({4. / 3., 4. / 3., 2. / 3.}, Profile::linear), 0.5, rounding);  // distance 2
+  EXPECT_NEAR(zone.alpha({4. / 3., 4. / 3., 2. / 3.}, BlendingFunction::linear), 0.5, rounding);  // distance 2
 }
 
 TEST(Zone, CylinderFallsAroundItsAxisAndItsRoundEnds) {
   const auto zone = Zone<3>::cylinder({1., 0., 0.}, {1., 0., 10.}, 1., 3.);
-  const auto at = [&](double x, double y, double z) { return zone.alpha({x, y, z}, Profile::linear); };
+  const auto at = [&](double x, double y, double z) { return zone.alpha({x, y, z}, BlendingFunction::linear); };
   EXPECT_EQ(at(1.6, 0.7, 5.), 1.);
   EXPECT_NEAR(at(1., 2., 0.), 0.5, rounding);
   EXPECT_NEAR(at(1., -2.5, 9.), 0.25, rounding);
@@ -71,7 +71,7 @@ class MorphingField : public testing::Test {
  protected:
   mesh::Mesh<2> mesh = grid({10, 8, 10., 8.});
   elements::MaterialPoints<2> points{mesh};
-  morphing::MorphingField<2> alpha{mesh, points, Profile::linear};
+  morphing::MorphingField<2> alpha{mesh, points, BlendingFunction::linear};
   Zone<2> left = Zone<2>::ball({3., 4.}, 1., 4.), right = Zone<2>::ball({6., 4.}, 2., 3.);
 };
 
@@ -82,14 +82,14 @@ TEST_F(MorphingField, IsZeroWithoutZones) {
 }
 
 TEST_F(MorphingField, IsTheMaximumOverAllZonesAddedTogetherOrInTurn) {
-  morphing::MorphingField<2> in_turn{mesh, points, Profile::linear};
+  morphing::MorphingField<2> in_turn{mesh, points, BlendingFunction::linear};
   alpha.add({left, right});
   in_turn.add({right});
   in_turn.add({left});
 
   for (int p = 0; p < points.size(); ++p) {
     const auto& x = points.position(p);
-    EXPECT_EQ(alpha(p), std::max(left.alpha(x, Profile::linear), right.alpha(x, Profile::linear)));
+    EXPECT_EQ(alpha(p), std::max(left.alpha(x, BlendingFunction::linear), right.alpha(x, BlendingFunction::linear)));
     EXPECT_EQ(in_turn(p), alpha(p));
   }
 }
@@ -114,7 +114,7 @@ TEST_F(MorphingField, NamesTheElementsWhereItRose) {
     bool rises = false;
     for (int p = points.first(e); p < points.first(e + 1); ++p) {
       const auto& x = points.position(p);
-      rises = rises || right.alpha(x, Profile::linear) > left.alpha(x, Profile::linear);
+      rises = rises || right.alpha(x, BlendingFunction::linear) > left.alpha(x, BlendingFunction::linear);
     }
     if (rises) expected.push_back(e);
   }

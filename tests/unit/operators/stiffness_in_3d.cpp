@@ -23,7 +23,7 @@ struct Block {
   base::Stiffness<3> e0 = materials::elasticity_tensor<3>(model, youngs_modulus, 0.25);
   materials::Micromodulus c0 = materials::calibrate<3>(model, youngs_modulus, 0.3, horizon);
   elements::MaterialPoints<3> points{mesh};
-  morphing::MorphingField<3> alpha{mesh, points, morphing::Profile::linear};
+  morphing::MorphingField<3> alpha{mesh, points, morphing::BlendingFunction::linear};
   bonds::BondFamilies<3> bonds;
   operators::MorphedStiffness<3> elasticity{e0, operators::PeridynamicStiffness::kept};
   discretization::Dirichlet<3> dirichlet{*comm, mesh, {}};

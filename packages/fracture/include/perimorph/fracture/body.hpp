@@ -16,7 +16,7 @@ namespace perimorph::fracture {
 
 /// How a body is discretized, and how well its equations are solved.
 struct BodyOptions {
-  morphing::Profile profile;
+  morphing::BlendingFunction blending_function;
   DiscontinuousElements discontinuous;
   operators::PeridynamicStiffness peridynamic_stiffness;
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o, [length]

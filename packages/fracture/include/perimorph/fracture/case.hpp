@@ -16,7 +16,7 @@ using operators::PeridynamicStiffness;
 /// A ball is a circle in 2D, a sphere in 3D; automatic ones are balls where the elastic body is stretched most.
 enum class SeedShape { ball, cylinder, box, everything, automatic };
 enum class PreCrackShape { polyline, polygon, disc };  ///< the first in 2D, the others in 3D
-using MorphingProfile = morphing::Profile;
+using BlendingFunction = morphing::BlendingFunction;
 enum class DiscontinuousElements { on_damage, whole_zone };
 enum class Calibration { analytic, mesh_consistent };  ///< of the critical stretch and the fracture energy
 enum class OperatorForm { crs, matrix_free, on_the_fly };
@@ -82,7 +82,7 @@ struct Case {
   double horizon, characteristic_length;
   int points_per_direction;  ///< material points of an element
 
-  MorphingProfile profile;
+  BlendingFunction blending_function;
   DiscontinuousElements discontinuous;
   PeridynamicStiffness peridynamic_stiffness;
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o of new zones, [length] (given in horizons)

@@ -7,7 +7,7 @@
 namespace perimorph::morphing {
 
 /// How alpha falls over the rim of a zone: 1 - t, or 1 - 3t^2 + 2t^3.
-enum class Profile { linear, cubic };
+enum class BlendingFunction { linear, cubic };
 
 /// A zone where alpha = 1: all points up to inner_radius from its core, a box or a line; alpha falls to 0 over the next
 /// rim (r2 - r1). A ball, such as the seed circle r1 or the growth circle r_i of WHL19, is a box of one point.
@@ -26,7 +26,7 @@ struct Zone {
                        double outer_radius);
   static Zone everything();
 
-  double alpha(const base::Point<dim>& x, Profile profile) const;
+  double alpha(const base::Point<dim>& x, BlendingFunction function) const;
 
  private:
   double distance_to_core(const base::Point<dim>& x) const;
@@ -40,7 +40,7 @@ template <int dim>
 class MorphingField {
  public:
   /// Local; points must outlive this.
-  MorphingField(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, Profile profile);
+  MorphingField(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, BlendingFunction function);
 
   /// Adds zones; returns the local elements where alpha rose, ascending. Local (zones alike on all ranks).
   std::vector<int> add(const std::vector<Zone<dim>>& zones);
@@ -53,7 +53,7 @@ class MorphingField {
  private:
   const mesh::Mesh<dim>& mesh_;
   const elements::MaterialPoints<dim>& points_;
-  Profile profile_;
+  BlendingFunction function_;
   std::vector<double> alpha_;
   std::vector<char> carries_bonds_;
 };
