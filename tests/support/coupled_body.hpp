@@ -22,7 +22,7 @@ struct Setup {
   bool whole_zone_discontinuous = false;
   std::vector<discretization::PrescribedComponent> prescribed = {};
   std::vector<mesh::CrackFacet<2>> pre_cracks = {};
-  bonds::Stiffness kept = bonds::Stiffness::stored;
+  bonds::StiffnessStorage kept = bonds::StiffnessStorage::stored;
 };
 
 struct CoupledBody {

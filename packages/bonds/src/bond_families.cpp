@@ -12,7 +12,7 @@ using base::Point;
 template <int dim>
 BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                 std::vector<char> active, const materials::Micromodulus& micromodulus,
-                                const std::vector<mesh::CrackFacet<dim>>& pre_cracks, Stiffness kept)
+                                const std::vector<mesh::CrackFacet<dim>>& pre_cracks, StiffnessStorage kept)
     : mesh_(mesh),
       points_(points),
       active_(std::move(active)),

@@ -55,9 +55,9 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       profile_(profile),
       points_(mesh, options_.points_per_direction),
       alpha_(mesh, points_, options_.blending_function),
-      bonds_(
-          mesh, points_, mesh::active_elements(mesh), problem.micromodulus, problem.pre_cracks,
-          options.operator_form == OperatorForm::on_the_fly ? bonds::Stiffness::on_the_fly : bonds::Stiffness::stored),
+      bonds_(mesh, points_, mesh::active_elements(mesh), problem.micromodulus, problem.pre_cracks,
+             options.operator_form == OperatorForm::on_the_fly ? bonds::StiffnessStorage::on_the_fly
+                                                               : bonds::StiffnessStorage::stored),
       elasticity_(problem.e0, options_.peridynamic_stiffness),
       dirichlet_(*comm, mesh, problem.displacements),
       element_exchange_(discretization::element_exchange(*comm, mesh)),

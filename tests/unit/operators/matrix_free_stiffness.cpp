@@ -12,7 +12,7 @@ namespace {
 using Vector = Tpetra::Vector<double>;
 
 /// Irregular elements, a zone in the middle, a side held; 11 x 9 elements, so that fours of elements stay incomplete.
-Setup held(bool discontinuous, bool triangles, bonds::Stiffness kept) {
+Setup held(bool discontinuous, bool triangles, bonds::StiffnessStorage kept) {
   Setup setup{{11, 9, 11., 9., Point2::Zero(), 0.15, triangles}, 2.5, 0.5, {}};
   setup.zones = {morphing::Zone<2>::ball({5., 4.}, 3., 4.5)};
   setup.whole_zone_discontinuous = discontinuous;
@@ -21,7 +21,7 @@ Setup held(bool discontinuous, bool triangles, bonds::Stiffness kept) {
   return setup;
 }
 
-class MatrixFreeStiffness : public ::testing::TestWithParam<std::tuple<bool, bool, bonds::Stiffness>> {
+class MatrixFreeStiffness : public ::testing::TestWithParam<std::tuple<bool, bool, bonds::StiffnessStorage>> {
  protected:
   CoupledBody body{std::apply(held, GetParam())};
   operators::MatrixFreeStiffness<2> matrix_free{body.model(), body.supports()};
@@ -103,11 +103,12 @@ TEST_P(MatrixFreeStiffness, AddsToAScaledVector) {
 
 INSTANTIATE_TEST_SUITE_P(Meshes, MatrixFreeStiffness,
                          ::testing::Combine(::testing::Bool(), ::testing::Bool(),
-                                            ::testing::Values(bonds::Stiffness::stored, bonds::Stiffness::on_the_fly)));
+                                            ::testing::Values(bonds::StiffnessStorage::stored,
+                                                              bonds::StiffnessStorage::on_the_fly)));
 
 TEST(StiffnessOnTheFly, NeedsLessMemoryAndIsThatWhichIsStored) {
-  const CoupledBody stored(held(false, false, bonds::Stiffness::stored));
-  const CoupledBody computed(held(false, false, bonds::Stiffness::on_the_fly));
+  const CoupledBody stored(held(false, false, bonds::StiffnessStorage::stored));
+  const CoupledBody computed(held(false, false, bonds::StiffnessStorage::on_the_fly));
   const operators::MatrixFreeStiffness<2> with_numbers(stored.model(), stored.supports());
   const operators::MatrixFreeStiffness<2> without(computed.model(), computed.supports());
   ASSERT_EQ(stored.bonds.n_bonds(), computed.bonds.n_bonds());

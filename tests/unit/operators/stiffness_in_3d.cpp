@@ -30,7 +30,7 @@ struct Block {
   std::vector<char> continuous = std::vector<char>(mesh.n_elements(), 0);
   discretization::DofMap<3> dofs{comm, mesh, discretization::corner_exchange(*comm, mesh), continuous};
 
-  explicit Block(bonds::Stiffness kept = bonds::Stiffness::stored)
+  explicit Block(bonds::StiffnessStorage kept = bonds::StiffnessStorage::stored)
       : bonds(mesh, points, mesh::active_elements(mesh), c0, {}, kept) {
     bonds.extend(alpha.add({morphing::Zone<3>::box(Point3::Zero(), Point3(4., 4., 1.), 2.)}));
     elasticity.update(mesh, points, bonds, alpha,
@@ -65,7 +65,7 @@ TEST(BlockIn3d, IsSymmetricAndPositiveWithSixRigidModesAtZeroEnergy) {
   EXPECT_GT(eigenvalues[6], 1e-4 * eigenvalues.maxCoeff());
 }
 
-class StiffnessIn3d : public ::testing::TestWithParam<bonds::Stiffness> {};
+class StiffnessIn3d : public ::testing::TestWithParam<bonds::StiffnessStorage> {};
 
 TEST_P(StiffnessIn3d, IsTheSameWithoutAMatrix) {
   const Block body(GetParam());
@@ -81,7 +81,7 @@ TEST_P(StiffnessIn3d, IsTheSameWithoutAMatrix) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bonds, StiffnessIn3d,
-                         ::testing::Values(bonds::Stiffness::stored, bonds::Stiffness::on_the_fly));
+                         ::testing::Values(bonds::StiffnessStorage::stored, bonds::StiffnessStorage::on_the_fly));
 
 }  // namespace
 }  // namespace perimorph::tests

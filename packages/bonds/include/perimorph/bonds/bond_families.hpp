@@ -17,7 +17,7 @@ struct ElementPair {
 };
 
 /// Where the stiffness of a bond comes from: memory, or its points.
-enum class Stiffness { stored, on_the_fly };
+enum class StiffnessStorage { stored, on_the_fly };
 
 /// All bonds that touch this rank's active elements and of which an end has alpha > 0. They are kept by pairs of
 /// elements: bonds of pair p are first_bond(p) ... first_bond(p+1)-1. The broken set lives here.
@@ -28,7 +28,7 @@ class BondFamilies {
   /// @param active elements around the nodes that this rank owns (mesh::active_elements)
   BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, std::vector<char> active,
                const materials::Micromodulus& micromodulus, const std::vector<mesh::CrackFacet<dim>>& pre_cracks,
-               Stiffness kept = Stiffness::stored);
+               StiffnessStorage kept = StiffnessStorage::stored);
 
   /// Adds the bonds of elements that have come to carry bonds; those already known are passed over. Local.
   void extend(const std::vector<int>& elements);
@@ -59,7 +59,7 @@ class BondFamilies {
     return computes_stiffness() ? stiffness_on_the_fly(first_point, second_point) : stiffness_[b];
   }
   double stiffness(const Bond<dim>& bond) const { return stiffness(bond.id, bond.first_point, bond.second_point); }
-  bool computes_stiffness() const { return kept_ == Stiffness::on_the_fly; }
+  bool computes_stiffness() const { return kept_ == StiffnessStorage::on_the_fly; }
   const materials::Micromodulus& micromodulus() const { return micromodulus_; }
   bool broken(BondId b) const { return (ends_[b] & broken_bit) != 0; }
   void set_broken(BondId b);
@@ -99,7 +99,7 @@ class BondFamilies {
   const elements::MaterialPoints<dim>& points_;
   std::vector<char> active_;
   materials::Micromodulus micromodulus_;
-  Stiffness kept_;
+  StiffnessStorage kept_;
   Visibility<dim> visibility_;
   std::vector<base::Point<dim>> centroids_;
   std::vector<double> radii_;
