@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "perimorph/base/errors.hpp"
-
 namespace perimorph::base {
 namespace {
 
@@ -29,17 +27,6 @@ TEST(QuotedList, QuotesEachAndPutsTheSeparatorBetween) {
   EXPECT_EQ(quoted_list({"a", "b c"}), "\"a\", \"b c\"");
   EXPECT_EQ(quoted_list({"a", "b"}, " or "), "\"a\" or \"b\"");
   EXPECT_EQ(quoted_list({}), "");
-}
-
-TEST(Assertion, ThrowsABugWithPlaceConditionAndValues) {
-  try {
-    const int n = 3;
-    PERIMORPH_ASSERT(n < 2, "n is {}", n);
-    FAIL() << "nothing was thrown";
-  } catch (const Bug& bug) {
-    EXPECT_NE(std::string(bug.what()).find("text.cpp:"), std::string::npos);
-    EXPECT_NE(std::string(bug.what()).find("n < 2 does not hold: n is 3"), std::string::npos);
-  }
 }
 
 }  // namespace

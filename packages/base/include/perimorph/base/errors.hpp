@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <string>
 
 namespace perimorph::base {
 
@@ -21,13 +22,27 @@ struct Bug : std::logic_error {
   using std::logic_error::logic_error;
 };
 
+/// Throws a Bug that names the place, this process' rank, the condition, and the values. For the macros below.
+[[noreturn]] void fail_assertion(const char* file, int line, const char* condition, const std::string& values);
+
 }  // namespace perimorph::base
 
-/// Throws Bug with a formatted message (fmt syntax, with the values) if the condition does not hold. Always on.
-#define PERIMORPH_ASSERT(condition, ...)                                                                      \
-  do {                                                                                                        \
-    if (!(condition)) {                                                                                       \
-      throw ::perimorph::base::Bug(fmt::format("{}:{}: {} does not hold: ", __FILE__, __LINE__, #condition) + \
-                                   fmt::format(__VA_ARGS__));                                                 \
-    }                                                                                                         \
+/// Throws Bug with a formatted message (fmt syntax, with the values) if the condition does not hold. Always on: for
+/// what costs nothing beside the work of the function that it stands in.
+#define PERIMORPH_ASSERT(condition, ...)                                                           \
+  do {                                                                                             \
+    if (!(condition)) {                                                                            \
+      ::perimorph::base::fail_assertion(__FILE__, __LINE__, #condition, fmt::format(__VA_ARGS__)); \
+    }                                                                                              \
   } while (false)
+
+/// The same for what would be felt: in an inner loop, or a look at every item of an argument. On in the presets debug
+/// and sanitize; elsewhere it is compiled and never evaluated.
+#ifdef PERIMORPH_DEBUG_ASSERTIONS
+#define PERIMORPH_DEBUG_ASSERT(...) PERIMORPH_ASSERT(__VA_ARGS__)
+#else
+#define PERIMORPH_DEBUG_ASSERT(...)           \
+  do {                                        \
+    if (false) PERIMORPH_ASSERT(__VA_ARGS__); \
+  } while (false)
+#endif
