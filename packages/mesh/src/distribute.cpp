@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
 
 #include "packed_mesh.hpp"
 #include "partition.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/point_tree.hpp"
 #include "perimorph/mesh/sorted_sides.hpp"
 
 namespace perimorph::mesh {
@@ -52,12 +52,12 @@ Owners owners(const Mesh<dim>& whole, std::vector<int> element_owners) {
 
 // ---- which elements a rank needs ----
 
-/// Some balls in a tree: finds out whether any of them comes near another ball.
+/// Some of the balls, which can be asked whether any of them comes near another one.
 template <int dim>
-class BallTree {
+class NearbyBalls {
  public:
-  BallTree(const Balls<dim>& all, std::vector<int> members, double reach)
-      : all_(all), members_(std::move(members)), reach_(reach), tree_(dim, *this) {
+  NearbyBalls(const Balls<dim>& all, const std::vector<int>& members, double reach)
+      : all_(all), members_(members), reach_(reach), tree_(centers_of(all, members)) {
     for (const int m : members_) {
       box_.extend(all_.centers[m]);
       largest_radius_ = std::max(largest_radius_, all_.radii[m]);
@@ -69,45 +69,25 @@ class BallTree {
     const Point<dim>& center = all_.centers[element];
     const double search_radius = (reach_ + all_.radii[element] + largest_radius_) * (1. + 1e-9);
     if (box_.exteriorDistance(center) > search_radius) return false;
-    FirstNear result{*this, element, search_radius * search_radius};
-    tree_.findNeighbors(result, center.data(), nanoflann::SearchParams());
-    return result.found;
-  }
-
-  // What nanoflann asks of a set of points.
-  std::size_t kdtree_get_point_count() const { return members_.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t d) const { return all_.centers[members_[i]][static_cast<int>(d)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
+    return tree_.any_within(center, search_radius, [&](int m) {
+      const int member = members_[m];
+      return (center - all_.centers[member]).norm() <= reach_ + all_.radii[element] + all_.radii[member];
+    });
   }
 
  private:
-  /// A nanoflann result set that ends the search at the first member near enough.
-  struct FirstNear {
-    const BallTree& tree;
-    int element;
-    double squared_radius;
-    bool found = false;
-
-    bool full() const { return true; }
-    double worstDist() const { return squared_radius; }
-    bool addPoint(double, std::size_t i) {
-      const int member = tree.members_[i];
-      const auto& [centers, radii] = tree.all_;
-      found = (centers[element] - centers[member]).norm() <= tree.reach_ + radii[element] + radii[member];
-      return !found;
-    }
-  };
-
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, BallTree>, BallTree, dim, int>;
+  static std::vector<Point<dim>> centers_of(const Balls<dim>& all, const std::vector<int>& members) {
+    std::vector<Point<dim>> centers;
+    for (const int m : members) centers.push_back(all.centers[m]);
+    return centers;
+  }
 
   const Balls<dim>& all_;
-  std::vector<int> members_;
+  const std::vector<int>& members_;
   double reach_;
   double largest_radius_ = 0.;
   Eigen::AlignedBox<double, dim> box_;
-  Tree tree_;
+  base::PointTree<dim> tree_;
 };
 
 template <int dim>
@@ -125,14 +105,14 @@ std::vector<int> elements_of_rank(const Mesh<dim>& whole, const Owners& owner, c
   for (int e = 0; e < whole.n_elements(); ++e) {
     if (is_active(whole, owner, e, rank)) active.push_back(e);
   }
-  const BallTree<dim> tree(balls, active, halo_width);
+  const NearbyBalls<dim> active_balls(balls, active, halo_width);
   std::vector<int> own, halo;
   for (int e = 0, next = 0; e < whole.n_elements(); ++e) {
     const bool active_here = next < static_cast<int>(active.size()) && active[next] == e;
     if (active_here) ++next;
     if (owner.elements[e] == rank) {
       own.push_back(e);
-    } else if (active_here || (!active.empty() && tree.is_near(e))) {
+    } else if (active_here || (!active.empty() && active_balls.is_near(e))) {
       halo.push_back(e);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace perimorph::base {
@@ -41,9 +42,36 @@ TYPED_TEST(PointTreeOf, IncludesPointsOnTheSphere) {
   EXPECT_EQ(tree.within(Point<dim>::Zero(), 1.), (std::vector<int>{0, 1}));
 }
 
+TYPED_TEST(PointTreeOf, EndsASearchForAnyAtTheFirstThatHolds) {
+  constexpr int dim = TypeParam::value;
+  const PointTree<dim> tree(scattered<dim>(300));
+  for (const double radius : {1e-6, 0.1, 0.7, 5.}) {
+    const Point<dim> center = scattered<dim>(300)[7];
+    for (const int wanted : {7, 20, 299}) {
+      int n_asked_after_it = 0;
+      bool was_it = false;
+      const bool is_found = tree.any_within(center, radius, [&](int i) {
+        n_asked_after_it += was_it;
+        return was_it = i == wanted;
+      });
+      const auto near = tree.within(center, radius);
+      EXPECT_EQ(is_found, std::count(near.begin(), near.end(), wanted) == 1);
+      EXPECT_EQ(n_asked_after_it, 0);
+    }
+  }
+}
+
+TYPED_TEST(PointTreeOf, RefusesARadiusThatIsNoLength) {
+  constexpr int dim = TypeParam::value;
+  const PointTree<dim> tree(scattered<dim>(3));
+  EXPECT_THROW(tree.within(Point<dim>::Zero(), std::nan("")), Bug);
+  EXPECT_THROW(tree.any_within(Point<dim>::Zero(), -1., [](int) { return true; }), Bug);
+}
+
 TYPED_TEST(PointTreeOf, MayBeEmpty) {
   constexpr int dim = TypeParam::value;
   EXPECT_TRUE(PointTree<dim>({}).within(Point<dim>::Zero(), 1.).empty());
+  EXPECT_FALSE(PointTree<dim>({}).any_within(Point<dim>::Zero(), 1., [](int) { return true; }));
 }
 
 }  // namespace
