@@ -5,20 +5,20 @@
 #include <filesystem>
 
 #include "case_checks.hpp"
-#include "case_file.hpp"
 #include "choices.hpp"
-#include "literal.hpp"
 #include "mesh_checks.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/geometry.hpp"
+#include "perimorph/input/resolved.hpp"
 #include "perimorph/operators/bond_selection.hpp"
-#include "resolve.hpp"
 #include "temporary_folder.hpp"
 
 namespace perimorph::fracture {
 
 namespace {
 
+using input::Mistakes;
+using input::Resolved;
 using Numbers = Teuchos::Array<double>;
 using Teuchos::ParameterList;
 
@@ -144,7 +144,7 @@ void check_against_mesh_of(const Case& part, Mistakes& mistakes) {
   try {
     whole = read_opened_mesh<dim>(part, folder.path());
   } catch (const base::UserError& error) {
-    mistakes.add(line_of(part.lines, "/Mesh/File"), "/Mesh/File", error.what());
+    mistakes.add(input::line_of(part.lines, "/Mesh/File"), "/Mesh/File", error.what());
     return;
   }
   check_against_mesh(part, whole, mistakes);
@@ -227,21 +227,9 @@ void take_output(Case& result, const ParameterList& output) {
 
 }  // namespace
 
-std::string listing(const ParameterList& list, const std::string& path) {
-  std::string text;
-  for (const auto& item : list) {
-    const std::string full = path + "/" + item.first;
-    text += item.second.isList() ? listing(list.sublist(item.first), full)
-                                 : fmt::format("{} = {}\n", full, to_literal(item.second));
-  }
-  return text;
-}
-
 Case read_case(const std::string& file, const std::vector<std::string>& overrides) {
   Mistakes mistakes(file);
-  Node root = read_case_file(file, mistakes);
-  for (const auto& text : overrides) apply_override(root, text, mistakes);
-  Resolved resolved = resolve(root, case_schema(), mistakes);
+  Resolved resolved = input::read(file, overrides, case_schema(), mistakes);
   check_case(resolved, mistakes);
   Case result = sound_part(file, resolved, mistakes);
   if (!mistakes.empty() && !result.mesh_file.empty() && result.dimension != 0) {

@@ -8,13 +8,16 @@
 #include <set>
 
 #include "choices.hpp"
-#include "literal.hpp"
 #include "perimorph/base/text.hpp"
+#include "perimorph/input/literal.hpp"
 
 namespace perimorph::fracture {
 
 namespace {
 
+using input::in_quotes;
+using input::Mistakes;
+using input::Resolved;
 using Numbers = Teuchos::Array<double>;
 using Teuchos::ParameterList;
 
@@ -41,7 +44,7 @@ class Section {
   const Teuchos::Array<std::string>* texts(const std::string& name) const {
     return list_.getPtr<Teuchos::Array<std::string>>(name);
   }
-  std::string shown(const std::string& name) const { return to_literal(list_.getEntry(name)); }
+  std::string shown(const std::string& name) const { return input::to_literal(list_.getEntry(name)); }
   const std::string& path() const { return path_; }
 
   /// In the file or on the command line, be it sound or not.

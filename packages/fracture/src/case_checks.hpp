@@ -1,6 +1,6 @@
 #pragma once
 
-#include "resolve.hpp"
+#include "perimorph/input/resolved.hpp"
 
 namespace perimorph::fracture {
 
@@ -9,6 +9,6 @@ double poissons_ratio_of(const std::string& elastic_model);
 
 /// The checks that concern several parameters together. Those that lack a value they need say nothing: that mistake is
 /// already listed.
-void check_case(const Resolved& resolved, Mistakes& mistakes);
+void check_case(const input::Resolved& resolved, input::Mistakes& mistakes);
 
 }  // namespace perimorph::fracture

@@ -6,6 +6,7 @@
 
 #include "balance.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/input/resolved.hpp"
 #include "perimorph/mesh/fingerprint.hpp"
 
 namespace perimorph::fracture {
@@ -29,7 +30,7 @@ std::string deciding_lines(const Case& input) {
   constexpr const char* others[] = {"/Title",        "/Mesh/File",    "/Loading/Increments", "/Loading/Maximum",
                                     "/Solver/",      "/Output/Every", "/Output/Checkpoint",  "/Output/Bonds",
                                     "/Output/Spread"};
-  std::istringstream all(listing(input.resolved));
+  std::istringstream all(input::listing(input.resolved));
   std::string deciding;
   for (std::string line; std::getline(all, line);) {
     const bool decides = std::none_of(std::begin(others), std::end(others),

@@ -12,6 +12,8 @@ namespace perimorph::fracture {
 
 namespace {
 
+using input::in_quotes;
+using input::Mistakes;
 using Teuchos::ParameterList;
 
 template <int dim>
@@ -52,7 +54,7 @@ class GroupChecks {
     if (groups.count(group) != 0) return;
     std::vector<std::string> names;
     for (const auto& entry : groups) names.push_back(entry.first);
-    mistakes_.add(line_of(lines_, path), path,
+    mistakes_.add(input::line_of(lines_, path), path,
                   fmt::format("the mesh {} has no group of {} called {}; it has {}{}{}",
                               list_.sublist("Mesh").get<std::string>("File"), members, in_quotes(group),
                               names.empty() ? "none" : base::quoted_list(names), what_it_is(group),
@@ -78,11 +80,11 @@ class GroupChecks {
 
 template <int dim>
 void check_groups(const ParameterList& list, const std::map<std::string, int>& lines, const mesh::Mesh<dim>& whole,
-                  Mistakes& mistakes) {
+                  input::Mistakes& mistakes) {
   GroupChecks<dim>(list, lines, whole, mistakes).run();
 }
 
-template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<2>&, Mistakes&);
-template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<3>&, Mistakes&);
+template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<2>&, input::Mistakes&);
+template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<3>&, input::Mistakes&);
 
 }  // namespace perimorph::fracture

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "mistakes.hpp"
+#include "perimorph/input/mistakes.hpp"
 #include "perimorph/mesh/mesh.hpp"
 
 namespace perimorph::fracture {
@@ -13,6 +13,6 @@ namespace perimorph::fracture {
 /// @param lines where the case's parameters stand in its file
 template <int dim>
 void check_groups(const Teuchos::ParameterList& list, const std::map<std::string, int>& lines,
-                  const mesh::Mesh<dim>& whole, Mistakes& mistakes);
+                  const mesh::Mesh<dim>& whole, input::Mistakes& mistakes);
 
 }  // namespace perimorph::fracture

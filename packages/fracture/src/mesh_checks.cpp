@@ -15,6 +15,8 @@ namespace perimorph::fracture {
 
 namespace {
 
+using input::in_quotes;
+using input::Mistakes;
 using base::Point;
 
 constexpr double negligible = 1e-6;  // motion of the supports, relative to that of the part
@@ -120,7 +122,7 @@ class Checks {
   }
 
  private:
-  void add(const std::string& path, const std::string& what) { mistakes_.add(line_of(input_.lines, path), path, what); }
+  void add(const std::string& path, const std::string& what) { mistakes_.add(input::line_of(input_.lines, path), path, what); }
 
   // ---- probes ----
 
@@ -237,11 +239,11 @@ class Checks {
 }  // namespace
 
 template <int dim>
-void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& mistakes) {
+void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole, input::Mistakes& mistakes) {
   Checks<dim>(input, whole, mistakes).run();
 }
 
-template void check_against_mesh(const Case&, const mesh::Mesh<2>&, Mistakes&);
-template void check_against_mesh(const Case&, const mesh::Mesh<3>&, Mistakes&);
+template void check_against_mesh(const Case&, const mesh::Mesh<2>&, input::Mistakes&);
+template void check_against_mesh(const Case&, const mesh::Mesh<3>&, input::Mistakes&);
 
 }  // namespace perimorph::fracture

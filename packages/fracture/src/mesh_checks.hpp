@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mistakes.hpp"
 #include "perimorph/fracture/case.hpp"
+#include "perimorph/input/mistakes.hpp"
 #include "perimorph/mesh/mesh.hpp"
 
 namespace perimorph::fracture {
@@ -12,6 +12,6 @@ namespace perimorph::fracture {
 /// @param input of a case with mistakes, what is sound; nothing is said of what depends on the rest
 /// @param mistakes those of the case; to these are added
 template <int dim>
-void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& mistakes);
+void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole, input::Mistakes& mistakes);
 
 }  // namespace perimorph::fracture

@@ -69,7 +69,7 @@ mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
     whole = read_opened_mesh<dim>(input, folder);
-    Mistakes mistakes(input.file);
+    input::Mistakes mistakes(input.file);
     check_against_mesh(input, whole, mistakes);
     mistakes.report();
   });

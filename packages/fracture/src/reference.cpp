@@ -1,98 +1,17 @@
-// The reference of the case file, made from the schema: as text and as Markdown.
+// The reference of the case file: what stands before the list of all parameters.
+
+#include "perimorph/input/reference.hpp"
 
 #include <fmt/format.h>
 
-#include <Teuchos_Array.hpp>
-#include <sstream>
-
-#include "literal.hpp"
 #include "perimorph/fracture/case.hpp"
-#include "rules.hpp"
 
 namespace perimorph::fracture {
 
 namespace {
 
-using Teuchos::ParameterList;
-
 constexpr const char* title = "Every parameter of a case file";
 constexpr const char* units = "any consistent set will do (mm, N and MPa; or m, N and Pa)";
-
-/// The text broken into lines, each indented.
-std::string wrapped(const std::string& text, const std::string& indent) {
-  constexpr std::size_t width = 100;
-  std::string all, line = indent;
-  std::istringstream in(text);
-  for (std::string word; in >> word;) {
-    if (line.size() > indent.size() && line.size() + 1 + word.size() > width) {
-      all += line + "\n";
-      line = indent;
-    }
-    line += (line.size() > indent.size() ? " " : "") + word;
-  }
-  return all + line + "\n";
-}
-
-const Rule& rule_of(const Teuchos::ParameterEntry& entry) { return dynamic_cast<const Rule&>(*entry.validator()); }
-
-/// Whether the user must, may or need not give the parameter, and its default or an example between quotes.
-std::string presence(const Teuchos::ParameterEntry& entry, const std::string& quote) {
-  const std::string literal = to_literal(entry);
-  const std::string value = quote + (literal.empty() ? "\"\"" : literal) + quote;
-  switch (rule_of(entry).presence()) {
-    case Presence::required:
-      return "required, such as " + value;
-    case Presence::optional:
-      return "optional, such as " + value;
-    default:
-      return "default " + value;
-  }
-}
-
-std::string describe_parameter(const std::string& path, const Teuchos::ParameterEntry& entry) {
-  return fmt::format("{}\n    {}; {}; allowed is {}\n{}\n", path, type_of(entry), presence(entry, ""),
-                     rule_of(entry).allowed(), wrapped(entry.docString(), "    "));
-}
-
-std::string describe_list(const ParameterList& list, const std::string& path) {
-  std::string text;
-  for (const auto& item : list) {
-    const std::string here = path + "/" + item.first;
-    if (item.second.isList()) {
-      text += here + "/\n" + wrapped(item.second.docString(), "    ") + "\n" +
-              describe_list(list.sublist(item.first), here);
-    } else {
-      text += describe_parameter(here, item.second);
-    }
-  }
-  return text;
-}
-
-/// Text in a cell of a table, where "|", "*", "_", "<" and "[" would mean something.
-std::string cell(const std::string& text) {
-  std::string escaped;
-  for (const char c : text)
-    escaped += (std::string("|*_<[").find(c) == std::string::npos ? "" : "\\") + std::string(1, c);
-  return escaped;
-}
-
-/// A heading and what the list is for, a table of its own parameters, then its sublists.
-std::string markdown_of(const ParameterList& list, const std::string& path) {
-  std::string rows, sublists;
-  for (const auto& item : list) {
-    const std::string &name = item.first, here = path + "/" + name;
-    const Teuchos::ParameterEntry& entry = item.second;
-    if (entry.isList()) {
-      sublists +=
-          fmt::format("\n## `{}`\n\n{}\n{}", here, cell(entry.docString()), markdown_of(list.sublist(name), here));
-    } else {
-      rows += fmt::format("| `{}` | {} | {} | {} | {} |\n", name, type_of(entry), presence(entry, "`"),
-                          cell(rule_of(entry).allowed()), cell(entry.docString()));
-    }
-  }
-  const std::string header = "\n| parameter | type | given | allowed | meaning |\n|---|---|---|---|---|\n";
-  return (rows.empty() ? "" : header + rows) + sublists;
-}
 
 }  // namespace
 
@@ -104,7 +23,7 @@ std::string describe_schema() {
              "in the file, and --set \"Solver/Tolerance=1e-6\" on the command line; * is a name of your choice.\n"
              "Units are in brackets; {}.\n\n",
              title, units) +
-         describe_list(case_schema(), "");
+         input::describe(case_schema());
 }
 
 std::string describe_schema_in_markdown() {
@@ -118,7 +37,9 @@ std::string describe_schema_in_markdown() {
              "in the file, and `--set \"Solver/Tolerance=1e-6\"` on the command line; `*` is a name of your choice.\n"
              "Units are in brackets; {}. Keys such as WHL19 are in [README.md](README.md).\n",
              title, units) +
-         markdown_of(case_schema(), "");
+         input::describe_in_markdown(case_schema());
 }
+
+std::string describe_schema_in_relax_ng() { return input::describe_in_relax_ng(case_schema()); }
 
 }  // namespace perimorph::fracture

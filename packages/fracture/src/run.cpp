@@ -12,6 +12,7 @@
 #include "perimorph/fracture/advice.hpp"
 #include "perimorph/fracture/automatic_seeds.hpp"
 #include "perimorph/fracture/calibration.hpp"
+#include "perimorph/input/resolved.hpp"
 #include "perimorph/mesh/mesh_report.hpp"
 #include "temporary_folder.hpp"
 
@@ -160,7 +161,7 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
   auto problem = make_problem<dim>(input);
   const auto whole = read_whole_mesh<dim>(*comm, input, folder.path());
   const auto mesh = distribute_mesh(*comm, whole, problem, expected_costs(whole, problem, input.discontinuous));
-  log->info("{}", listing(input.resolved));
+  log->info("{}", input::listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 

@@ -7,16 +7,24 @@
 
 #include "choices.hpp"
 #include "perimorph/fracture/case.hpp"
+#include "perimorph/input/rules.hpp"
+#include "perimorph/mesh_files/read_mesh.hpp"
 #include "perimorph/operators/bond_selection.hpp"
-#include "rules.hpp"
 
 namespace perimorph::fracture {
 
 namespace {
 
+using namespace input;  // the rules
 using Numbers = Teuchos::Array<double>;
 using Texts = Teuchos::Array<std::string>;
 using Teuchos::ParameterList;
+
+std::vector<std::string> geometry_and_mesh_endings() {
+  std::vector<std::string> endings = mesh_files::mesh_file_endings();
+  endings.insert(endings.begin(), ".geo");
+  return endings;
+}
 
 /// A section, or with the name "*" the template of entries that the user names.
 ParameterList& section(ParameterList& parent, const std::string& name, const std::string& documentation) {
@@ -35,7 +43,7 @@ void declare_general(ParameterList& root) {
       "gmsh geometry (.geo, meshed on the way and kept), or mesh of gmsh (.msh), Exodus (.e, .exo) or ANSYS (.cdb, "
       "blocked archive), relative to the case file's folder. Its physical groups, sets or components are the names "
       "that boundary conditions refer to.",
-      required(mesh_file()));
+      required(file_name(geometry_and_mesh_endings())));
   mesh.set("Scale", 1.,
            "Factor on the coordinates in that file [-]: 1000 for a mesh in m and a case in mm. All lengths in the case "
            "are those after scaling.",

@@ -20,6 +20,8 @@ LINEAR_ALGEBRA_IN = {
     "solvers": None,
     "fracture": ["Tpetra_Vector", "Tpetra_Import"],
 }
+PUGIXML = re.compile(r"pugixml")
+PUGIXML_IN = {"input": None}
 EXODUS = re.compile(r"(exodusII|netcdf|hdf5)")
 EXODUS_IN = {"io": None, "mesh_files": ["exodusII"]}
 
@@ -112,6 +114,7 @@ def violations(source):
         *undeclared_violations(source),
         *library_violations(source, LINEAR_ALGEBRA, LINEAR_ALGEBRA_IN),
         *library_violations(source, EXODUS, EXODUS_IN),
+        *library_violations(source, PUGIXML, PUGIXML_IN),
         *folder_violations(source),
     ]
 
@@ -164,7 +167,7 @@ class PlantedViolations(unittest.TestCase):
         self.assert_found("history.cpp", "nowhere")
 
     def test_an_include_round_the_include_folders(self):
-        self.append("io/src/history.cpp", '#include "../../fracture/src/rules.hpp"')
+        self.append("io/src/history.cpp", '#include "../../input/src/xml_tree.hpp"')
         self.assert_found("history.cpp", "goes round")
 
     def test_a_dependency_against_the_order(self):
@@ -192,6 +195,10 @@ class PlantedViolations(unittest.TestCase):
     def test_exodus_outside_mesh_files_and_io(self):
         self.append("mesh/src/mesh.cpp", "#include <exodusII.h>")
         self.assert_found("exodusII.h does not belong into mesh")
+
+    def test_pugixml_outside_input(self):
+        self.append("fracture/src/run.cpp", "#include <pugixml.hpp>")
+        self.assert_found("pugixml.hpp does not belong into fracture")
 
     def test_a_package_without_readme(self):
         readme = self.copy / "packages/bonds/README.md"

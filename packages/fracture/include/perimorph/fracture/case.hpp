@@ -131,9 +131,6 @@ Teuchos::ParameterList case_schema();
 ///         are any, also what of the rest does not fit the mesh.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides = {});
 
-/// The values of a list: "/Section/Sub/Name = value", a line each.
-std::string listing(const Teuchos::ParameterList& list, const std::string& path = "");
-
 /// The schema as text: path, type, default, allowed values, documentation.
 std::string describe_schema();
 

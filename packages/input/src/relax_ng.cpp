@@ -4,11 +4,11 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "literal.hpp"
-#include "perimorph/fracture/case.hpp"
-#include "rules.hpp"
+#include "perimorph/input/literal.hpp"
+#include "perimorph/input/reference.hpp"
+#include "perimorph/input/rules.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 namespace {
 
@@ -70,7 +70,7 @@ pugi::xml_node append_element(pugi::xml_node parent, const char* tag, const std:
 }
 
 void append_parameter(pugi::xml_node parent, const std::string& name, const Teuchos::ParameterEntry& entry) {
-  const Rule& rule = dynamic_cast<const Rule&>(*entry.validator());
+  const Rule& rule = rule_of(entry);
   auto element = append_element(parent, "Parameter", name, entry.docString() + " Allowed is " + rule.allowed() + ".");
   append_text(append(element, "attribute", "type"), "value", type_of(entry));
   auto value = append(element, "attribute", "value");
@@ -126,7 +126,7 @@ void define_extras(pugi::xml_node grammar) {
 
 }  // namespace
 
-std::string describe_schema_in_relax_ng() {
+std::string describe_in_relax_ng(const ParameterList& schema) {
   pugi::xml_document document;
   auto grammar = append(document, "grammar");
   grammar.append_attribute("xmlns") = "http://relaxng.org/ns/structure/1.0";
@@ -135,7 +135,7 @@ std::string describe_schema_in_relax_ng() {
   auto root = append(append(grammar, "start"), "element", "ParameterList");
   append(append(root, "optional"), "attribute", "name");
   append(root, "ref", "ofLists");
-  append_members(root, case_schema());
+  append_members(root, schema);
   define_anything(grammar);
   define_extras(grammar);
   std::ostringstream text;
@@ -143,4 +143,4 @@ std::string describe_schema_in_relax_ng() {
   return text.str();
 }
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input

@@ -1,4 +1,4 @@
-#include "rules.hpp"
+#include "perimorph/input/rules.hpp"
 
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterListExceptions.hpp>
@@ -10,9 +10,8 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
-#include "perimorph/mesh_files/read_mesh.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 namespace {
 
@@ -52,6 +51,8 @@ void Rule::validate(const ParameterEntry& entry, const std::string& name, const 
       fmt::format("{}/{}: found {}; allowed is {}", list, name, Teuchos::toString(entry.getAny(false)), allowed_));
 }
 
+const Rule& rule_of(const ParameterEntry& declaration) { return dynamic_cast<const Rule&>(*declaration.validator()); }
+
 RulePtr required(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_presence(Presence::required))); }
 RulePtr optional(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_presence(Presence::optional))); }
 
@@ -63,9 +64,7 @@ RulePtr text(const std::string& what) {
   return rule<std::string>(what, [](const std::string& value) { return !value.empty(); });
 }
 
-RulePtr mesh_file() {
-  std::vector<std::string> endings = mesh_files::mesh_file_endings();
-  endings.insert(endings.begin(), ".geo");
+RulePtr file_name(const std::vector<std::string>& endings) {
   const std::string allowed = "a readable name of a file that ends in " + base::quoted_list(endings, " or ");
   return rule<std::string>(allowed, [endings](const std::string& value) {
     const auto ending = std::filesystem::path(value).extension();
@@ -133,4 +132,4 @@ RulePtr names(const std::string& what) {
   });
 }
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input

@@ -1,4 +1,4 @@
-#include "case_file.hpp"
+#include "xml_tree.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -11,7 +11,7 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 namespace {
 
@@ -244,4 +244,4 @@ void apply_override(Node& root, const std::string& text, Mistakes& mistakes) {
   parameter.line = command_line;
 }
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input

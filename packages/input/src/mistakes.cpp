@@ -1,11 +1,11 @@
-#include "mistakes.hpp"
+#include "perimorph/input/mistakes.hpp"
 
 #include <algorithm>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 namespace {
 constexpr std::size_t most_mistakes = 100;
@@ -54,4 +54,4 @@ std::string in_quotes(const std::string& text) {
   return fmt::format("\"{}{}\"", shown, text.size() > most_characters ? "..." : "");
 }
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 /// What happens when the case file leaves a parameter out: it is a mistake; it has no value (or another parameter
 /// decides whether it needs one); it takes the default. The schema's value of the first two is an example.
@@ -40,12 +40,15 @@ class Rule : public Teuchos::ParameterEntryValidator {
 
 using RulePtr = Teuchos::RCP<const Rule>;
 
+/// Of a parameter in a schema.
+const Rule& rule_of(const Teuchos::ParameterEntry& declaration);
+
 RulePtr required(const RulePtr& rule);
 RulePtr optional(const RulePtr& rule);
 
 RulePtr any_text();
 RulePtr text(const std::string& what);  ///< not empty
-RulePtr mesh_file();                    ///< ends as a geometry or a mesh does
+RulePtr file_name(const std::vector<std::string>& endings);
 RulePtr one_of(std::vector<std::string> choices);
 RulePtr any_number();
 RulePtr above(double low);
@@ -60,4 +63,4 @@ RulePtr either(int one, int other);
 RulePtr numbers(const std::string& what);  ///< array; how many is checked with the dimension
 RulePtr names(const std::string& what);    ///< array of texts that are not empty
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "mistakes.hpp"
+#include "perimorph/input/mistakes.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 /// A <Parameter> or <ParameterList> as it stands in the file, not yet understood.
 struct Node {
@@ -25,4 +25,4 @@ Node read_case_file(const std::string& file, Mistakes& mistakes);
 /// Puts "Section/Sub/Name=value" into the tree, creating what is not there.
 void apply_override(Node& root, const std::string& text, Mistakes& mistakes);
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input

@@ -1,4 +1,4 @@
-#include "literal.hpp"
+#include "perimorph/input/literal.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "perimorph/base/errors.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 namespace {
 
@@ -175,4 +175,4 @@ std::string describe_literal(const std::string& type) { return type_called(type)
 
 std::string to_literal(const ParameterEntry& entry) { return type_called(type_of(entry)).write(entry); }
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input

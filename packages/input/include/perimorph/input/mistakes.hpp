@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 /// The line of what was said on the command line, not in the file.
 inline constexpr int command_line = 0;
@@ -42,4 +42,4 @@ class Mistakes {
 /// A piece of the file for a message: in quotes, without control characters, not too long.
 std::string in_quotes(const std::string& text);
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input

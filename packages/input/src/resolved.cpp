@@ -1,15 +1,15 @@
-#include "resolve.hpp"
+#include "perimorph/input/resolved.hpp"
 
 #include <algorithm>
 #include <set>
-#include <vector>
 
-#include "literal.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
-#include "rules.hpp"
+#include "perimorph/input/literal.hpp"
+#include "perimorph/input/rules.hpp"
+#include "xml_tree.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 namespace {
 
@@ -28,8 +28,6 @@ const Node* find(const Node& list, const std::string& name, bool is_list) {
   }
   return nullptr;
 }
-
-const Rule& rule_of(const ParameterEntry& declared) { return dynamic_cast<const Rule&>(*declared.validator()); }
 
 class Resolver {
  public:
@@ -184,7 +182,10 @@ class Resolver {
 
 }  // namespace
 
-Resolved resolve(const Node& root, const ParameterList& schema, Mistakes& mistakes) {
+Resolved read(const std::string& file, const std::vector<std::string>& overrides, const ParameterList& schema,
+              Mistakes& mistakes) {
+  Node root = read_case_file(file, mistakes);
+  for (const auto& text : overrides) apply_override(root, text, mistakes);
   Resolved result;
   result.list.setName(schema.name());
   result.lines.emplace("", root.line);
@@ -192,4 +193,14 @@ Resolved resolve(const Node& root, const ParameterList& schema, Mistakes& mistak
   return result;
 }
 
-}  // namespace perimorph::fracture
+std::string listing(const ParameterList& list, const std::string& path) {
+  std::string text;
+  for (const auto& item : list) {
+    const std::string full = path + "/" + item.first;
+    text += item.second.isList() ? listing(list.sublist(item.first), full)
+                                 : fmt::format("{} = {}\n", full, to_literal(item.second));
+  }
+  return text;
+}
+
+}  // namespace perimorph::input

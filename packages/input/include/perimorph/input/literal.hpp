@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace perimorph::fracture {
+namespace perimorph::input {
 
 /// The types of a case file: "int", "double", "bool", "string", "Array(int)", "Array(double)", "Array(string)".
 const std::vector<std::string>& type_names();
@@ -25,4 +25,4 @@ std::string describe_literal(const std::string& type);
 /// A value as one would write it in a case file.
 std::string to_literal(const Teuchos::ParameterEntry& entry);
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::input
