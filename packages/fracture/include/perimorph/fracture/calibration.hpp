@@ -7,8 +7,8 @@ namespace perimorph::fracture {
 /// K / sqrt(E G_c) at which a crack runs between regular elements, the mean over two of them, if the critical stretch
 /// follows from the integral (materials::critical_stretch). A crack moves from element to element; it is held up at
 /// each, and what the body loses as it breaks free is not in the energy of the bonds. Interpolated between measured
-/// values (`tools/studies/work-precision --only fracture`), for characteristic lengths of 0.2 to 0.5 elements; beyond, the
-/// value of the nearest of these. Local.
+/// values (`tools/studies/work-precision --only fracture`), for characteristic lengths of 0.2 to 0.5 elements; beyond,
+/// the value of the nearest of these. Local.
 /// @param characteristic_length in element sizes [-]
 double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
                           double characteristic_length);

@@ -11,7 +11,7 @@
 namespace perimorph::fracture {
 
 /// What a run writes beside history.csv and the fields, if the case asks for it: probes.csv, crack.csv and
-/// crack_path.csv, bonds-<increment>.vtp. Rank 0 writes; the order of rows and bonds does not depend on the ranks.
+/// crack_path.csv, bonds-\<increment>.vtp. Rank 0 writes; the order of rows and bonds does not depend on the ranks.
 template <int dim>
 class Exports {
  public:
