@@ -5,6 +5,8 @@
 #include <numeric>
 #include <type_traits>
 
+#include "perimorph/base/parallel.hpp"
+
 namespace perimorph::base {
 
 /// The MPI communicator behind a Teuchos one (MPI_COMM_SELF for a serial one).
