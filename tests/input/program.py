@@ -9,11 +9,10 @@ import pathlib
 import resource
 import subprocess
 import sys
-import tempfile
 import unittest
 
-PERIMORPH, MPIEXEC = sys.argv[1:3]
-del sys.argv[1:3]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import CASE, MPIEXEC, PERIMORPH, Plate, changed, settings
 
 MEMORY = 8 << 30  # of address space, for each rank: Open MPI and libraries take half a gigabyte of it
 
@@ -73,47 +72,20 @@ FINISH
 
 
 def displacement(name, group, component, rate=0.0):
-    return f"""<ParameterList name="{name}">
-      <Parameter name="Group" type="string" value="{group}"/>
-      <Parameter name="Component" type="string" value="{component}"/>
-      <Parameter name="Rate" type="double" value="{rate}"/>
-    </ParameterList>
-    """
+    return {name: {"Group": group, "Component": component, "Rate": rate}}
 
 
-HELD = displacement("x", "left", "x") + displacement("y", "left", "y")
-APART_HELD = displacement("apart x", "apart", "x") + displacement("apart y", "apart", "y")
+HELD = displacement("x", "left", "x") | displacement("y", "left", "y")
+APART_HELD = displacement("apart x", "apart", "x") | displacement("apart y", "apart", "y")
+DISPLACEMENTS = "Boundary Conditions/Displacements"
 
 
-def case(displacements=HELD + APART_HELD, mesh="plate.msh", tractions=""):
-    return f"""<ParameterList name="plate">
-  <ParameterList name="Mesh"><Parameter name="File" type="string" value="{mesh}"/></ParameterList>
-  <ParameterList name="Material">
-    <Parameter name="Young's Modulus" type="double" value="1000"/>
-    <Parameter name="Poisson's Ratio" type="double" value="0.3333"/>
-    <Parameter name="Elastic Model" type="string" value="Plane Stress"/>
-  </ParameterList>
-  <ParameterList name="Peridynamics">
-    <Parameter name="Horizon" type="double" value="2"/>
-    <Parameter name="Characteristic Length" type="double" value="0.2"/>
-  </ParameterList>
-  <ParameterList name="Boundary Conditions">
-    <ParameterList name="Displacements">{displacements}</ParameterList>
-    <ParameterList name="Tractions">{tractions}</ParameterList>
-  </ParameterList>
-  <ParameterList name="Loading"><Parameter name="Increments" type="int" value="1"/></ParameterList>
-</ParameterList>
-"""
+class Program(Plate):
+    """Nothing breaks: there is no peridynamic zone."""
 
-
-class Program(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.case = self.folder / "plate.xml"
-        self.write("plate.msh", MSH)
-        self.write("plate.xml", case())
+    CASE = changed(CASE, {"Material/Critical Stretch": None, "Morphing": None, "Pre-Cracks": None, DISPLACEMENTS: HELD | APART_HELD,
+                          "Loading/Increments": 1})
+    MESH = MSH
 
     def write(self, name, content):
         (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
@@ -137,13 +109,13 @@ class Sound(Program):
     def test_the_case_that_the_others_spoil_is_sound(self):
         for mesh, content in [("plate.msh", MSH), ("square.cdb", CDB)]:
             self.write(mesh, content)
-            self.write("plate.xml", case(mesh=mesh) if mesh == "plate.msh" else case(HELD, mesh))
+            self.write_case({"Mesh/File": mesh} if mesh == "plate.msh" else {"Mesh/File": mesh, DISPLACEMENTS: HELD})
             run = self.perimorph("check", self.case)
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertIn('group          "left": 2 nodes, 1 side\n', run.stdout)
 
     def test_the_scale_reaches_the_report(self):
-        run = self.perimorph("check", self.case, "--set", "Mesh/Scale=1000")
+        run = self.perimorph("check", self.case, *settings("Mesh/Scale=1000"))
         self.assertIn("(0, 0) to (6000, 1000)", run.stdout)
 
 
@@ -158,7 +130,7 @@ class Meshes(Program):
 
     def test_empty_or_garbage(self):
         for name in ["plate.msh", "plate.e", "plate.exo", "plate.cdb"]:
-            self.write("plate.xml", case(mesh=name))
+            self.write_case({"Mesh/File": name})
             self.write(name, "")
             self.assert_refused(f"{name}: the file is empty")
             self.write(name, bytes(range(256)) * 20)
@@ -168,27 +140,28 @@ class Meshes(Program):
         (self.folder / "folder.msh").mkdir()
         (self.folder / "zero.msh").symlink_to("/dev/zero")
         for name, what in [("folder.msh", "is a folder"), ("none.msh", "No such file"), ("zero.msh", "no regular file")]:
-            self.write("plate.xml", case(mesh=name))
+            self.write_case({"Mesh/File": name})
             self.assert_refused(what.replace("no regular", "is not a regular"))
 
     def test_a_geometry_that_cannot_be_read(self):
         for name, why in [("absent.geo", "No such file or directory"), ("a" * 300 + ".geo", "File name too long")]:
-            self.write("plate.xml", case().replace("plate.msh", name))
+            self.write_case({"Mesh/File": name})
             self.assert_refused(f"{name}: cannot be read: {why}")
 
     def test_huge_counts(self):
         self.write("plate.msh", MSH.replace("$Nodes\n10", "$Nodes\n1000000000000"))
         self.assert_refused("a count of 1000000000000, but the rest of the file holds at most")
-        self.write("plate.xml", case(HELD, mesh="square.cdb"))
+        self.write_case({"Mesh/File": "square.cdb", DISPLACEMENTS: HELD})
         self.write("square.cdb", CDB.replace("NODE,2", "NODE,1999999999"))
         self.assert_refused("a count of 1999999999, but the rest of the file holds at most")
 
 
 class Conditions(Program):
     def test_a_part_of_the_body_that_nothing_holds(self):
-        self.write("plate.xml", case(HELD))
+        self.write_case({DISPLACEMENTS: HELD})
+        line = self.case.read_text().splitlines().index('<ParameterList name="Displacements">') + 1
         self.assert_refused(
-            "plate.xml:13: /Boundary Conditions/Displacements: part 2 of 2 of the body (1 element, from (5, 0) to (6, 1)) can "
+            f"plate.xml:{line}: /Boundary Conditions/Displacements: part 2 of 2 of the body (1 element, from (5, 0) to (6, 1)) can "
             "move as a whole: translation in x, translation in y, rotation; prescribe displacements against it",
             ranks=[1, 2, 4],
         )
@@ -197,14 +170,14 @@ class Conditions(Program):
         for held, free in [
             (displacement("x", "left", "x"), "translation in y"),
             (displacement("y", "left", "y"), "translation in x, rotation"),
-            (displacement("x", "corner", "x") + displacement("y", "corner", "y"), "rotation"),
-            ("", "translation in x, translation in y, rotation"),
+            (displacement("x", "corner", "x") | displacement("y", "corner", "y"), "rotation"),
+            ({}, "translation in x, translation in y, rotation"),
         ]:
-            self.write("plate.xml", case(held + APART_HELD))
+            self.write_case({DISPLACEMENTS: held | APART_HELD})
             self.assert_refused(f"part 1 of 2 of the body (2 elements, from (0, 0) to (2, 1)) can move as a whole: {free};", ranks=[1])
 
     def test_contradictory_displacements(self):
-        self.write("plate.xml", case(HELD + APART_HELD + displacement("pull", "corner", "x", 0.1)))
+        self.write_case({f"{DISPLACEMENTS}/pull": {"Group": "corner", "Component": "x", "Rate": 0.1}})
         self.assert_refused(
             "/Boundary Conditions/Displacements/pull: prescribes another x displacement than "
             "/Boundary Conditions/Displacements/x on 1 node that both groups have, the first at (0, 0)",
@@ -212,18 +185,18 @@ class Conditions(Program):
         )
 
     def test_all_that_does_not_fit_the_mesh_is_told_at_once(self):
-        self.write("plate.xml", case(HELD + displacement("pull", "corner", "x", 0.1) + displacement("push", "lefft", "y")))
+        self.write_case({DISPLACEMENTS: HELD | displacement("pull", "corner", "x", 0.1) | displacement("push", "lefft", "y")})
         self.assert_refused(
             'no group of nodes called "lefft"; it has "apart", "corner", "left" - did you mean "left"?',
             "/Boundary Conditions/Displacements/pull: prescribes another x displacement than",
             "/Output/Probes/one/Points: (3, 0.5) is outside the body",
-            options=["--set", "Output/Probes/one/Points={3, 0.5}"],
+            options=settings("Output/Probes/one/Points={3, 0.5}"),
             ranks=[1, 4],
         )
 
     def test_groups_of_another_dimension(self):
-        traction = '<ParameterList name="t"><Parameter name="Group" type="string" value="corner"/></ParameterList>'
-        self.write("plate.xml", case(HELD + displacement("all", "plate", "x"), tractions=traction))
+        self.write_case({DISPLACEMENTS: HELD | displacement("all", "plate", "x"),
+                         "Boundary Conditions/Tractions/t/Group": "corner"})
         self.assert_refused(
             'no group of nodes called "plate"; it has "apart", "corner", "left" ("plate" is a group of elements)',
             'no group of sides called "corner"; it has "apart", "left" ("corner" has nodes only)',
@@ -232,16 +205,12 @@ class Conditions(Program):
 
 class Horizons(Program):
     def test_one_that_ends_inside_the_elements(self):
-        seed = """<ParameterList name="Morphing"><ParameterList name="Seeds"><ParameterList name="tip">
-          <Parameter name="Shape" type="string" value="Everything"/>
-        </ParameterList></ParameterList></ParameterList>
-        <ParameterList name="Boundary Conditions">"""
-        self.write("plate.xml", case().replace('<ParameterList name="Boundary Conditions">', seed))
-        self.assertEqual(self.perimorph("check", self.case, "--set", "Peridynamics/Horizon=0.71").returncode, 0)
+        self.write_case({"Morphing/Seeds/tip/Shape": "Everything"})
+        self.assertEqual(self.perimorph("check", self.case, *settings("Peridynamics/Horizon=0.71")).returncode, 0)
         self.assert_refused(
             '/Peridynamics/Horizon: found 0.4, but in the seed "tip" the element at (0.5, 0.5) reaches 0.707107 from its '
             "centre to its corners; allowed is no less than that",
-            options=["--set", "Peridynamics/Horizon=0.4"],
+            options=settings("Peridynamics/Horizon=0.4"),
             ranks=[1, 4],
         )
 
@@ -261,19 +230,20 @@ class Folders(Program):
         self.refused_output("/proc", "cannot be written")
 
     def test_results_never_replace_the_input(self):
-        self.write("plate.xml", case(HELD, mesh="plate.e"))
+        self.write_case({"Mesh/File": "plate.e", DISPLACEMENTS: HELD})
         self.write("plate.e", b"precious")
         self.refused_output(".", "plate.e: the results would replace the mesh")
         self.assertEqual((self.folder / "plate.e").read_bytes(), b"precious")
         self.case = self.folder / "resolved.xml"
-        self.write("resolved.xml", case())
+        self.write_case()
+        before = self.case.read_text()
         self.refused_output(".", "resolved.xml: the results would replace the case")
-        self.assertEqual(self.case.read_text(), case())
+        self.assertEqual(self.case.read_text(), before)
 
     def test_results_stay_in_their_folder(self):
         for name in ["..xml", "...xml"]:
             self.case = self.folder / name
-            self.write(name, case())
+            self.write_case()
             self.assert_refused(f"{name}: its name without .xml names the results", command="run")
         self.assertFalse((self.folder / "results").exists())
 

@@ -1,27 +1,24 @@
 """perimorph params --relax-ng: by this schema an editor (here xmllint) accepts our cases and sees the mistakes of names,
 types and words.
 
-    relax_ng.py PERIMORPH
+    relax_ng.py PERIMORPH MPIEXEC
 """
 
 import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-PERIMORPH = sys.argv[1]
-del sys.argv[1:]
-BEAM = SOURCE / "inputs/notched_beam/notched_beam.xml"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH, ROOT, InFolder
+
+BEAM = ROOT / "inputs/notched_beam/notched_beam.xml"
 
 
-class RelaxNg(unittest.TestCase):
+class RelaxNg(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         schema = subprocess.run([PERIMORPH, "params", "--relax-ng"], capture_output=True, text=True, timeout=60, check=True)
         (self.folder / "perimorph.rng").write_text(schema.stdout)
 
@@ -34,7 +31,7 @@ class RelaxNg(unittest.TestCase):
         self.assertEqual(checked.returncode, 0, checked.stderr)
 
     def test_all_cases_and_templates_are_valid(self):
-        cases = sorted(SOURCE.glob("inputs/*/*.xml")) + sorted(SOURCE.glob("tools/templates/*/*.xml"))
+        cases = sorted(ROOT.glob("inputs/*/*.xml")) + sorted(ROOT.glob("tools/templates/*/*.xml"))
         self.assertGreaterEqual(len(cases), 9)
         for case in cases:
             with self.subTest(case.name):

@@ -1,7 +1,7 @@
 """cmake --install: other programs find the packages, and the installed tools run a case and show it, from another folder and
 without the repository.
 
-    installed.py BUILD CMAKE
+    installed.py PERIMORPH MPIEXEC BUILD CMAKE
 """
 
 import os
@@ -10,6 +10,9 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import coarsen, settings
 
 BUILD, CMAKE = sys.argv[1:3]
 del sys.argv[1:]
@@ -51,10 +54,9 @@ class Installed(unittest.TestCase):
     def test_the_tools_run_a_case_and_show_it(self):
         tool = lambda name: self.prefix / f"bin/perimorph-{name}"
         self.command(tool("new-case"), "part", "--from", "plate")
-        geometry = self.folder / "part/part.geo"
-        geometry.write_text(geometry.read_text().replace("dx = 1;", "dx = 2;"))
-        self.command(tool("run"), "part/part.xml", "-n", "2", "--set", "Peridynamics/Horizon=6",
-                     "--set", "Peridynamics/Characteristic Length=0.4", "--set", "Loading/Increments=2")
+        coarsen(self.folder / "part/part.geo", "dx = 1;", "dx = 2;")
+        self.command(tool("run"), "part/part.xml", "-n", "2", *settings(
+            "Peridynamics/Horizon=6", "Peridynamics/Characteristic Length=0.4", "Loading/Increments=2"))
         self.command(tool("plot-history"), "results/part")
         self.command(tool("render"), "results/part")
         made = {path.name for path in (self.folder / "results/part").iterdir()}

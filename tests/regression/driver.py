@@ -3,129 +3,23 @@
     driver.py PERIMORPH MPIEXEC
 """
 
-import csv
 import os
 import pathlib
 import pty
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
 import netCDF4
 import numpy
 
-PERIMORPH, MPIEXEC = sys.argv[1:3]
-del sys.argv[1:3]
-
-N = 12  # elements along each side of a square plate, size 1
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import N, PERIMORPH, ROOT, Plate, settings, text_of
 
 
-def mesh(columns=N):
-    """gmsh's format 2.2: block "body", the right edge "right", and the two left corners."""
-    names = ['0 1 "lower"', '0 2 "upper"', '1 3 "right"', '2 4 "body"']
-    node = lambda i, j: j * (columns + 1) + i + 1
-    nodes = [f"{node(i, j)} {i} {j} 0" for j in range(N + 1) for i in range(columns + 1)]
-    elements = [f"15 2 1 1 {node(0, 0)}", f"15 2 2 2 {node(0, N)}"]
-    elements += [f"1 2 3 3 {node(columns, j)} {node(columns, j + 1)}" for j in range(N)]
-    elements += [
-        f"3 2 4 4 {node(i, j)} {node(i + 1, j)} {node(i + 1, j + 1)} {node(i, j + 1)}" for j in range(N) for i in range(columns)
-    ]
-    numbered = [f"{k} {element}" for k, element in enumerate(elements, 1)]
-    section = lambda name, lines: [f"${name}", str(len(lines)), *lines, f"$End{name}"]
-    return "\n".join(
-        ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
-        + section("PhysicalNames", names)
-        + section("Nodes", nodes)
-        + section("Elements", numbered)
-        + [""]
-    )
-
-
-# A slit from the left edge to the middle; the corners pull it open. The first bonds break in the third increment.
-CASE = """<ParameterList name="plate">
-  <ParameterList name="Mesh"><Parameter name="File" type="string" value="plate.msh"/></ParameterList>
-  <ParameterList name="Material">
-    <Parameter name="Young's Modulus" type="double" value="1000"/>
-    <Parameter name="Poisson's Ratio" type="double" value="0.3333"/>
-    <Parameter name="Elastic Model" type="string" value="Plane Stress"/>
-    <Parameter name="Critical Stretch" type="double" value="0.05"/>
-  </ParameterList>
-  <ParameterList name="Peridynamics">
-    <Parameter name="Horizon" type="double" value="2"/>
-    <Parameter name="Characteristic Length" type="double" value="0.2"/>
-  </ParameterList>
-  <ParameterList name="Morphing">
-    <ParameterList name="Seeds">
-      <ParameterList name="tip">
-        <Parameter name="Center" type="Array(double)" value="{5, 6}"/>
-        <Parameter name="Inner Radius" type="double" value="3.5"/>
-        <Parameter name="Outer Radius" type="double" value="4"/>
-      </ParameterList>
-    </ParameterList>
-  </ParameterList>
-  <ParameterList name="Pre-Cracks">
-    <ParameterList name="slit"><Parameter name="Points" type="Array(double)" value="{0, 6, 5, 6}"/></ParameterList>
-  </ParameterList>
-  <ParameterList name="Boundary Conditions">
-    <ParameterList name="Displacements">
-      <ParameterList name="hold x">
-        <Parameter name="Group" type="string" value="right"/>
-        <Parameter name="Component" type="string" value="x"/>
-      </ParameterList>
-      <ParameterList name="hold y">
-        <Parameter name="Group" type="string" value="right"/>
-        <Parameter name="Component" type="string" value="y"/>
-      </ParameterList>
-      <ParameterList name="pull down">
-        <Parameter name="Group" type="string" value="lower"/>
-        <Parameter name="Component" type="string" value="y"/>
-        <Parameter name="Rate" type="double" value="-0.2"/>
-      </ParameterList>
-      <ParameterList name="pull up">
-        <Parameter name="Group" type="string" value="upper"/>
-        <Parameter name="Component" type="string" value="y"/>
-        <Parameter name="Rate" type="double" value="0.2"/>
-      </ParameterList>
-    </ParameterList>
-  </ParameterList>
-  <ParameterList name="Loading"><Parameter name="Increments" type="int" value="3"/></ParameterList>
-</ParameterList>
-"""
-
-
-def text_of(variable):
-    return [str(name) for name in netCDF4.chartostring(variable[:])]
-
-
-class Driver(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.output = self.folder / "out"
-        (self.folder / "plate.msh").write_text(mesh())
-        self.case = self.folder / "plate.xml"
-        self.case.write_text(CASE)
-
-    def perimorph(self, *arguments, ranks=1):
-        command = [MPIEXEC, "-n", str(ranks), PERIMORPH, *map(str, arguments)]
-        return subprocess.run(command, capture_output=True, text=True, timeout=250)
-
-    def run_case(self, *options, ranks=1):
-        return self.perimorph("run", self.case, "--output", self.output, *options, ranks=ranks)
-
-    def history(self):
-        with open(self.output / "history.csv", newline="") as file:
-            return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-    def series(self):
-        return sorted(self.output.glob("plate.e*"))
-
-
-class Runs(Driver):
+class Runs(Plate):
     def test_ends_with_status_0_and_everything_on_disk(self):
         for ranks in [1, 2]:
             with self.subTest(ranks=ranks):
@@ -164,8 +58,7 @@ class Runs(Driver):
 
     def test_increments_before_the_first_break_cost_no_solve(self):
         rates = [f"Boundary Conditions/Displacements/pull {way}/Rate={rate}" for way, rate in [("up", 0.02), ("down", -0.02)]]
-        options = [option for setting in [*rates, "Loading/Increments=20"] for option in ("--set", setting)]
-        self.assertEqual(self.run_case(*options).returncode, 0)
+        self.assertEqual(self.run_case(*settings(*rates, "Loading/Increments=20")).returncode, 0)
 
         rows = self.history()
         self.assertEqual([int(row["broken_bonds"]) for row in rows], [0] * 20)
@@ -245,7 +138,7 @@ class Runs(Driver):
         self.assertRegex(shown.decode(), r"\r\x1b\[K\[=*> *\] step 3/3: \d+ solves, \d+ broken bonds, at this pace \d+ s left")
 
     def test_crack_faces_that_overlap_are_told(self):
-        pressed = ["--set", "Boundary Conditions/Displacements/pull up/Rate=-0.02", "--set", "Boundary Conditions/Displacements/pull down/Rate=0.02"]
+        pressed = settings("Boundary Conditions/Displacements/pull up/Rate=-0.02", "Boundary Conditions/Displacements/pull down/Rate=0.02")
         for ranks in [1, 2]:
             with self.subTest(ranks=ranks):
                 self.assertEqual(self.run_case(ranks=ranks).returncode, 0)
@@ -297,7 +190,7 @@ class Runs(Driver):
         self.assertEqual(self.history()[0]["elastic_energy"], first[0]["elastic_energy"])
 
 
-class UserErrors(Driver):
+class UserErrors(Plate):
     """Status 2 on any number of ranks, with a message that says where and what, printed once."""
 
     def assert_refused(self, run, *pieces):
@@ -318,7 +211,7 @@ class UserErrors(Driver):
                 self.assert_refused(self.run_case(ranks=ranks), "plate.msh")
 
     def test_a_group_that_the_mesh_does_not_have(self):
-        self.case.write_text(CASE.replace('value="right"', 'value="rihgt"', 1))
+        self.write_case({"Boundary Conditions/Displacements/hold x/Group": "rihgt"})
         for ranks in [1, 2]:
             with self.subTest(ranks=ranks):
                 self.assert_refused(
@@ -329,7 +222,7 @@ class UserErrors(Driver):
                 )
 
     def test_a_poissons_ratio_that_bonds_cannot_have(self):
-        self.case.write_text(CASE.replace("0.3333", "0.2"))
+        self.write_case({"Material/Poisson's Ratio": 0.2})
         for ranks in [1, 2]:
             with self.subTest(ranks=ranks):
                 self.assert_refused(self.run_case(ranks=ranks), "/Material/Poisson's Ratio", "0.2")
@@ -338,7 +231,7 @@ class UserErrors(Driver):
         self.assertEqual(self.perimorph("rnu", self.case).returncode, 2)
 
 
-class ComputationErrors(Driver):
+class ComputationErrors(Plate):
     """Status 3, and everything up to the last accepted increment on disk."""
 
     def test_a_solver_that_does_not_converge(self):
@@ -364,7 +257,7 @@ class ComputationErrors(Driver):
                     self.assertEqual(list(file["time_whole"][:]), [1, 2])
 
 
-class OtherCommands(Driver):
+class OtherCommands(Plate):
     def test_check_says_what_the_case_would_cost_and_leaves_nothing(self):
         run = self.perimorph("check", self.case)
 
@@ -385,7 +278,7 @@ class OtherCommands(Driver):
         run = self.perimorph("params", "--markdown")
 
         self.assertEqual(run.returncode, 0, run.stderr)
-        page = pathlib.Path(__file__).resolve().parents[2] / "packages/PARAMETERS.md"
+        page = ROOT / "packages/PARAMETERS.md"
         self.assertEqual(page.read_text(), run.stdout, f"renew it: perimorph params --markdown > {page}")
 
 

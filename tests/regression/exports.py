@@ -4,28 +4,22 @@
 """
 
 import csv
+import pathlib
+import sys
 import unittest
 import xml.etree.ElementTree
 
 import netCDF4
 import numpy
 
-import driver
-import restart
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import EVERY, INCREMENTS, N, GrowingCrack, changed, text_of
 
-OUTPUT = """  <ParameterList name="Output">
-    <Parameter name="Crack" type="bool" value="true"/>
-    <Parameter name="Bonds" type="Array(int)" value="{11, 16}"/>
-    <ParameterList name="Probes">
-      <ParameterList name="corner"><Parameter name="Points" type="Array(double)" value="{0, 12}"/></ParameterList>
-      <ParameterList name="ahead, of the tip">
-        <Parameter name="Points" type="Array(double)" value="{7.25, 6.25, 12, 6.25}"/>
-        <Parameter name="Divisions" type="int" value="4"/>
-      </ParameterList>
-    </ParameterList>
-  </ParameterList>
-</ParameterList>
-"""
+OUTPUT = {
+    "Crack": True,
+    "Bonds": [11, 16],
+    "Probes": {"corner": {"Points": [0, 12]}, "ahead, of the tip": {"Points": [7.25, 6.25, 12, 6.25], "Divisions": 4}},
+}
 TABLES = ["probes.csv", "crack.csv", "crack_path.csv"]
 TYPES = {"Int64": "<i8", "Float64": "<f8", "Int8": "i1"}
 
@@ -48,11 +42,8 @@ def read_vtp(file):
     return arrays
 
 
-class Exports(restart.Restart):
-    def setUp(self):
-        super().setUp()
-        text = self.case.read_text()
-        self.case.write_text(text[:text.rindex("</ParameterList>")] + OUTPUT)
+class Exports(GrowingCrack):
+    CASE = changed(GrowingCrack.CASE, {"Output": OUTPUT})
 
     def table(self, name):
         with open(self.output / name, newline="") as file:
@@ -68,12 +59,12 @@ class Exports(restart.Restart):
 class Content(Exports):
     def setUp(self):
         super().setUp()
-        self.run_until(restart.INCREMENTS)
+        self.run_until(INCREMENTS)
 
     def test_probes_have_a_row_for_each_increment_and_place(self):
         rows = self.numbers("probes.csv")
         self.assertEqual([(row["increment"], row["probe"], row["place"]) for row in rows],
-                         [(n, probe, place) for n in range(1, restart.INCREMENTS + 1)
+                         [(n, probe, place) for n in range(1, INCREMENTS + 1)
                           for probe, place in [("corner", 1)] + [("ahead, of the tip", k) for k in range(1, 6)]])
         self.assertEqual([row["x"] for row in rows[1:6]], [7.25, 8.4375, 9.625, 10.8125, 12])
         for row in rows:
@@ -89,24 +80,24 @@ class Content(Exports):
         self.run_until(2, "--set", "Output/Probes/middle/Points={10.5, 6.5}")
         probe = next(row for row in self.numbers("probes.csv") if row["probe"] == "middle" and row["increment"] == 2)
         with netCDF4.Dataset(self.series()[0]) as file:
-            names = driver.text_of(file["name_elem_var"])
+            names = text_of(file["name_elem_var"])
             ids = file["elem_num_map"][:]
             for name in ["stress_xx", "stress_yy", "stress_xy"]:
                 blocks = range(1, len(file.dimensions["num_el_blk"]) + 1)
                 values = numpy.concatenate([file[f"vals_elem_var{names.index(name) + 1}eb{b}"][1] for b in blocks])
-                self.assertAlmostEqual(probe[name], float(values[ids == 6 * driver.N + 10 + 1][0]), places=8)
+                self.assertAlmostEqual(probe[name], float(values[ids == 6 * N + 10 + 1][0]), places=8)
         self.assertGreater(abs(probe["stress_yy"]), 0.1)
 
     def test_the_crack_grows_from_the_tip_of_the_slit(self):
         rows, path = self.numbers("crack.csv"), self.numbers("crack_path.csv")
-        self.assertEqual([row["increment"] for row in rows], list(range(1, restart.INCREMENTS + 1)))
+        self.assertEqual([row["increment"] for row in rows], list(range(1, INCREMENTS + 1)))
         self.assertEqual(rows[10]["open_sides"], 0)
         lengths = [row["crack_length"] for row in rows]
         self.assertEqual(lengths, sorted(lengths))
         self.assertEqual(rows[-1]["open_sides"], len(path))
         self.assertEqual(rows[-1]["side_length"], len(path))  # all sides have length 1
         self.assertEqual(len({(row["element_1"], row["element_2"]) for row in path}), len(path))
-        for n in range(1, restart.INCREMENTS + 1):
+        for n in range(1, INCREMENTS + 1):
             self.assertEqual(rows[n - 1]["open_sides"], sum(row["increment"] <= n for row in path))
         ahead = [row for row in path if row["y_1"] == row["y_2"] == 6]
         self.assertGreater(len(ahead), 0)
@@ -134,11 +125,11 @@ class Content(Exports):
 
 class Ranks(Exports):
     def test_one_two_and_four_write_the_same(self):
-        self.run_until(restart.INCREMENTS)
+        self.run_until(INCREMENTS)
         probes, crack, path, bonds = self.numbers("probes.csv"), *map(self.table, TABLES[1:]), self.bonds(16)
         for ranks, options in [(2, []), (4, []), (2, ["--set", "Solver/Largest Imbalance=1"])]:  # parted anew on its way
             with self.subTest(ranks=ranks, options=options):
-                self.run_until(restart.INCREMENTS, *options, ranks=ranks)
+                self.run_until(INCREMENTS, *options, ranks=ranks)
                 self.assertEqual("partition        anew" in (self.output / "run.log").read_text(), bool(options))
                 for row, other in zip(probes, self.numbers("probes.csv"), strict=True):
                     for name in row:  # displacements are up to 0.8, stresses up to 50; the tolerance is 1e-6 of the reactions
@@ -159,14 +150,14 @@ class Continued(Exports):
         return [(self.output / name).read_bytes() for name in TABLES + ["bonds-000016.vtp"]]
 
     def test_no_row_is_lost_or_doubled(self):
-        self.run_until(restart.INCREMENTS, *restart.EVERY)
+        self.run_until(INCREMENTS, *EVERY)
         whole = self.everything()
         for stop in [1, 12, 13]:  # before the crack, in it
             with self.subTest(stop=stop):
-                self.run_until(stop, *restart.EVERY)
+                self.run_until(stop, *EVERY)
                 with open(self.output / "probes.csv", "a") as file:  # of an increment that was not finished
                     file.write(f"{stop + 1},1,corner,1,0,0\n{stop + 1},1")
-                self.run_until(restart.INCREMENTS, *restart.EVERY, "--restart")
+                self.run_until(INCREMENTS, *EVERY, "--restart")
                 self.assertEqual(self.everything(), whole)
 
     def test_without_the_table_of_the_earlier_run_it_is_refused(self):

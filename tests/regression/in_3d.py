@@ -4,13 +4,15 @@
 """
 
 import itertools
+import pathlib
+import sys
 import unittest
 
 import netCDF4
 import numpy
 
-import driver
-import restart
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import CASE, EVERY, SLOWLY, GrowingCrack, changed, msh, plate_mesh, text_of
 
 NX, NY, NZ = 10, 8, 2  # cubes of size 1
 
@@ -20,12 +22,12 @@ def mesh(is_mixed=False):
     cubes are cut into wedges, and one into pyramids and tetrahedra around its middle."""
     names = ['1 1 "lower"', '1 2 "upper"', '2 3 "right"', '3 4 "body"']
     node = lambda i, j, k: (k * (NY + 1) + j) * (NX + 1) + i + 1
-    nodes = [f"{node(i, j, k)} {i} {j} {k}" for k in range(NZ + 1) for j in range(NY + 1) for i in range(NX + 1)]
+    nodes = [(node(i, j, k), i, j, k) for k in range(NZ + 1) for j in range(NY + 1) for i in range(NX + 1)]
     ring = lambda i, j, k: [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)]
     elements = [(1, group, [node(0, j, k), node(0, j, k + 1)]) for group, j in [(1, 0), (2, NY)] for k in range(NZ)]
     elements += [(3, 3, [node(NX, j, k), node(NX, j + 1, k), node(NX, j + 1, k + 1), node(NX, j, k + 1)])
                  for k in range(NZ) for j in range(NY)]
-    nodes.append(f"{len(nodes) + 1} 8.5 1.5 0.5")
+    nodes.append((len(nodes) + 1, 8.5, 1.5, 0.5))
     middle = len(nodes)
     for k, j, i in itertools.product(range(NZ), range(NY), range(NX)):
         below, above = ring(i, j, k), ring(i, j, k + 1)
@@ -39,48 +41,26 @@ def mesh(is_mixed=False):
             elements.append((5, 4, below + above))
     if not is_mixed:
         nodes.pop()
-    lines = [f"{n} {shape} 2 {group} {group} {' '.join(map(str, corners))}"
-             for n, (shape, group, corners) in enumerate(elements, 1)]
-    section = lambda name, lines: [f"${name}", str(len(lines)), *lines, f"$End{name}"]
-    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat"] + section("PhysicalNames", names)
-                     + section("Nodes", nodes) + section("Elements", lines) + [""])
-
-
-def case():
-    """The plate's case with a slit through the thickness."""
-    text = driver.CASE
-    for piece, by in [
-        ('<ParameterList name="Mesh">', '<Parameter name="Dimension" type="int" value="3"/><ParameterList name="Mesh">'),
-        ("0.3333", "0.25"),
-        ("Plane Stress", "Three-Dimensional"),
-        ('<Parameter name="Center" type="Array(double)" value="{5, 6}"/>',
-         '<Parameter name="Shape" type="string" value="Cylinder"/>'
-         '<Parameter name="Start" type="Array(double)" value="{4, 4, 0}"/>'
-         '<Parameter name="End" type="Array(double)" value="{4, 4, 2}"/>'),
-        ('<Parameter name="Points" type="Array(double)" value="{0, 6, 5, 6}"/>',
-         '<Parameter name="Shape" type="string" value="Polygon"/>'
-         '<Parameter name="Points" type="Array(double)" value="{0, 4, 0, 4, 4, 0, 4, 4, 2, 0, 4, 2}"/>'),
-        ('<ParameterList name="pull down">',
-         '<ParameterList name="hold z"><Parameter name="Group" type="string" value="right"/>'
-         '<Parameter name="Component" type="string" value="z"/></ParameterList><ParameterList name="pull down">'),
-        ('name="Outer Radius" type="double" value="4"', 'name="Outer Radius" type="double" value="5"'),
-        ('"Increments" type="int" value="3"', f'"Increments" type="int" value="{INCREMENTS}"'),
-        ('value="-0.2"', 'value="-0.05"'),
-        ('name="Rate" type="double" value="0.2"', 'name="Rate" type="double" value="0.05"'),
-    ]:
-        assert piece in text, piece
-        text = text.replace(piece, by)
-    return text
+    return msh(names, nodes, elements)
 
 
 INCREMENTS = 14
 
 
-class InThreeDimensions(restart.Restart):
-    def setUp(self):
-        super().setUp()
-        (self.folder / "plate.msh").write_text(mesh())
-        self.case.write_text(case())
+class InThreeDimensions(GrowingCrack):
+    """The plate's case with a slit through the thickness."""
+
+    CASE = changed(CASE, {
+        **SLOWLY,
+        "Dimension": 3,
+        "Material/Poisson's Ratio": 0.25,
+        "Material/Elastic Model": "Three-Dimensional",
+        "Morphing/Seeds/tip": {"Shape": "Cylinder", "Start": [4, 4, 0], "End": [4, 4, 2], "Inner Radius": 3.5, "Outer Radius": 5.0},
+        "Pre-Cracks/slit": {"Shape": "Polygon", "Points": [0, 4, 0, 4, 4, 0, 4, 4, 2, 0, 4, 2]},
+        "Boundary Conditions/Displacements/hold z": {"Group": "right", "Component": "z"},
+        "Loading/Increments": INCREMENTS,
+    })
+    MESH = mesh()
 
 
 class Runs(InThreeDimensions):
@@ -95,11 +75,11 @@ class Runs(InThreeDimensions):
                 forces = [row[f"reaction_{group}_{c}"] for group in ["upper", "lower", "right"]]
                 self.assertLess(abs(sum(forces)), 1e-5 * abs(row["reaction_upper_y"]))
         with netCDF4.Dataset(self.series()[-1]) as file:
-            self.assertEqual(driver.text_of(file["name_nod_var"]), [f"displacement_{c}" for c in "xyz"])
+            self.assertEqual(text_of(file["name_nod_var"]), [f"displacement_{c}" for c in "xyz"])
             for name in ["stress_zz", "stress_yz", "stress_xz"]:
-                self.assertIn(name, driver.text_of(file["name_elem_var"]))
+                self.assertIn(name, text_of(file["name_elem_var"]))
             self.assertEqual(file["connect1"].elem_type, "HEX8")
-            self.assertIn("body_DGFE", driver.text_of(file["eb_names"]))
+            self.assertIn("body_DGFE", text_of(file["eb_names"]))
 
     def test_the_broken_surface_is_where_the_crack_runs(self):
         """Both faces of the crack, elements' sides, are a side set; it is empty before the first break."""
@@ -128,7 +108,7 @@ class Runs(InThreeDimensions):
             for part in self.series():
                 with netCDF4.Dataset(part) as file:
                     types = [file[f"connect{b}"].elem_type for b in range(1, len(file["eb_prop1"]) + 1)]
-                    found |= set(zip(driver.text_of(file["eb_names"]), map(int, file["eb_prop1"][:]), types))
+                    found |= set(zip(text_of(file["eb_names"]), map(int, file["eb_prop1"][:]), types))
         first_ids = {"TETRA4": 11, "PYRAMID5": 21, "WEDGE6": 31, "HEX8": 41}
         self.assertEqual({shape for _, _, shape in found}, set(first_ids))
         for name, number, shape in found:
@@ -141,7 +121,7 @@ class Runs(InThreeDimensions):
 
     def surface(self, file):
         """Corners of the faces, (faces, 4, 3)."""
-        number = driver.text_of(file["ss_names"]).index("broken_surface") + 1
+        number = text_of(file["ss_names"]).index("broken_surface") + 1
         if f"elem_ss{number}" not in file.variables:
             return numpy.zeros((0, 4, 3))
         corners = numpy.concatenate([file[f"connect{b}"][:] - 1 for b in range(1, len(file.dimensions["num_el_blk"]) + 1)])
@@ -161,14 +141,14 @@ class Continued(InThreeDimensions):
     def test_on_as_many_ranks_a_restart_ends_with_the_same_bits(self):
         for ranks, stops in [(1, [6, INCREMENTS - 2]), (2, [INCREMENTS - 1])]:
             self.output = self.folder / f"whole-{ranks}"
-            self.run_until(INCREMENTS, *restart.EVERY, ranks=ranks)
+            self.run_until(INCREMENTS, *EVERY, ranks=ranks)
             whole = self.outcome()
             self.assertGreater(float(whole[0][-1]["broken_bonds"]), 100)
             self.output = self.folder / f"out-{ranks}"
             for stop in stops:
                 with self.subTest(ranks=ranks, stop=stop):
-                    self.run_until(stop, *restart.EVERY, ranks=ranks)
-                    self.run_until(INCREMENTS, *restart.EVERY, "--restart", ranks=ranks)
+                    self.run_until(stop, *EVERY, ranks=ranks)
+                    self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
                     self.assert_same(self.outcome(), whole)
 
     def test_on_other_ranks_the_same_bonds_break(self):
@@ -192,12 +172,11 @@ class Mistakes(InThreeDimensions):
                 self.assertIn(piece, run.stderr)
 
     def test_a_mesh_of_two_dimensions(self):
-        (self.folder / "plate.msh").write_text(driver.mesh())
+        (self.folder / "plate.msh").write_text(plate_mesh())
         self.assert_refused("plate.msh: the mesh has no elements of dimension 3, its highest is 2")
 
     def test_a_body_that_is_free_to_move(self):
-        self.case.write_text(case().replace('value="z"', 'value="x"').replace('"hold z"><Parameter name="Group" type="string" value="right"',
-                                                                              '"hold z"><Parameter name="Group" type="string" value="lower"'))
+        self.write_case({"Boundary Conditions/Displacements/hold z": {"Group": "lower", "Component": "x"}})
         self.assert_refused("/Boundary Conditions/Displacements: the body can move as a whole: translation in z;")
 
     def test_a_pre_crack_through_elements_outside_of_the_zone(self):

@@ -11,69 +11,17 @@ import random
 import resource
 import signal
 import subprocess
+import sys
 import time
 import unittest
 
-import netCDF4
 import numpy
 
-import driver
-
-INCREMENTS = 16  # bonds break in 12 to 16, and the zone grows in 12, 13 and 15
-CASE = driver.CASE.replace('value="-0.2"', 'value="-0.05"').replace('name="Rate" type="double" value="0.2"', 'name="Rate" type="double" value="0.05"')
-EVERY = ["--set", "Output/Checkpoint Every=1"]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import EVERY, INCREMENTS, MPIEXEC, N, PERIMORPH, GrowingCrack, plate_mesh, settings
 
 
-class Restart(driver.Driver):
-    def setUp(self):
-        super().setUp()
-        self.case.write_text(CASE.replace('"Increments" type="int" value="3"', f'"Increments" type="int" value="{INCREMENTS}"'))
-
-    def run_until(self, increment, *options, ranks=1):
-        run = self.run_case("--quiet", "--set", f"Loading/Increments={increment}", *options, ranks=ranks)
-        self.assertEqual(run.returncode, 0, run.stderr)
-
-    def checkpoints(self):
-        return sorted(p.name for p in self.output.glob("checkpoint*"))
-
-    def rows(self):
-        """The history without the seconds."""
-        return [{name: value for name, value in row.items() if name != "wall_seconds"} for row in self.history()]
-
-    def fields(self):
-        """By variable: all steps of the series, each from its own file."""
-        times, steps = [], []
-        for part in self.series():
-            with netCDF4.Dataset(part) as file:
-                times += list(file["time_whole"][:].data)
-                for i in range(len(file["time_whole"])):
-                    steps.append({name: file[name][i].data for name in file.variables if name.startswith(("vals_nod", "vals_elem"))})
-        return times, steps
-
-    def outcome(self):
-        return self.rows(), *self.fields()
-
-    def uninterrupted(self, ranks=1):
-        whole = self.output
-        self.output = self.folder / f"uninterrupted-{ranks}"
-        self.run_until(INCREMENTS, *EVERY, ranks=ranks)
-        outcome = self.outcome()
-        self.output = whole
-        self.assertEqual(len(outcome[0]), INCREMENTS)
-        self.assertGreater(float(outcome[0][-1]["broken_bonds"]), 150)
-        return outcome
-
-    def assert_same(self, outcome, other):
-        """To the last bit."""
-        self.assertEqual(outcome[0], other[0])
-        self.assertEqual(outcome[1], other[1])
-        for step, other_step in zip(outcome[2], other[2], strict=True):
-            self.assertEqual(step.keys(), other_step.keys())
-            for name in step:
-                numpy.testing.assert_array_equal(step[name], other_step[name])
-
-
-class Continued(Restart):
+class Continued(GrowingCrack):
     def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
         for ranks, stops in [(1, [1, 11, 12, 15]), (2, [14])]:
             whole = self.uninterrupted(ranks)
@@ -169,7 +117,7 @@ class Continued(Restart):
             self.assertEqual(self.checkpoints(), ["checkpoint-000015.h5", "checkpoint-000016.h5"])
 
 
-class Refused(Restart):
+class Refused(GrowingCrack):
     """Status 2, what differs, and nothing changed."""
 
     def setUp(self):
@@ -195,7 +143,7 @@ class Refused(Restart):
         )
 
     def test_another_seed(self):
-        self.case.write_text(self.case.read_text().replace("{5, 6}", "{5, 6.5}"))
+        self.write_case({"Morphing/Seeds/tip/Center": [5, 6.5]})
         self.assert_refused("/Morphing/Seeds/tip/Center = {5, 6}", "/Morphing/Seeds/tip/Center = {5, 6.5}")
 
     def test_another_mesh(self):
@@ -204,7 +152,7 @@ class Refused(Restart):
         self.assert_refused("belongs to another mesh: as large as this one, but with other coordinates")
 
     def test_a_mesh_of_another_size(self):
-        (self.folder / "plate.msh").write_text(driver.mesh(columns=driver.N + 1))
+        (self.folder / "plate.msh").write_text(plate_mesh(columns=N + 1))
         self.assert_refused("belongs to another mesh: there 144 elements and 174 nodes, here 156 and 187")
 
     def test_only_damaged_checkpoints(self):
@@ -221,14 +169,14 @@ class Refused(Restart):
         self.assertEqual(len(self.rows()), 3)
 
 
-class Ended(Restart):
+class Ended(GrowingCrack):
     """By signals, errors and a full disk: status 3 in order, or at once by SIGKILL."""
 
-    ENDLESS = ["--set", "Loading/Increments=1000000", "--set", "Output/Every=1000000", "--set", "Material/Critical Stretch=1e3"]
+    ENDLESS = settings("Loading/Increments=1000000", "Output/Every=1000000", "Material/Critical Stretch=1e3")
 
     def start(self, *options, ranks=1, **process):
-        command = [driver.MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
-        command += [driver.PERIMORPH, "run", self.case, "--output", self.output, "--quiet", *options]
+        command = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
+        command += [PERIMORPH, "run", self.case, "--output", self.output, "--quiet", *options]
         run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **process)
         self.addCleanup(run.stderr.close)
         self.addCleanup(run.wait)

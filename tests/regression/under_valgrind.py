@@ -6,15 +6,17 @@ tools/checks/valgrind runs it.
 
 import pathlib
 import subprocess
+import sys
 import unittest
 
-import driver
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import fixture
 import in_3d
+from fixture import settings
 
 SUPPRESSIONS = ["/usr/share/openmpi/openmpi-valgrind.supp", pathlib.Path(__file__).with_name("valgrind.supp")]
 FOUND = 99  # exit status
-EVERYTHING = ["--set", "Output/Crack=true", "--set", "Output/Bonds={3}", "--set", "Output/Probes/ahead/Points={8, 6}",
-              "--set", "Output/Checkpoint Every=1"]
+EVERYTHING = settings("Output/Crack=true", "Output/Bonds={3}", "Output/Probes/ahead/Points={8, 6}", "Output/Checkpoint Every=1")
 
 
 class UnderValgrind:
@@ -22,7 +24,7 @@ class UnderValgrind:
         valgrind = ["valgrind", "--quiet", f"--error-exitcode={FOUND}", "--child-silent-after-fork=yes", "--num-callers=40",
                     "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
                     *(f"--suppressions={file}" for file in SUPPRESSIONS)]
-        command = [driver.MPIEXEC, "-n", str(ranks), *valgrind, driver.PERIMORPH, *map(str, arguments)]
+        command = [fixture.MPIEXEC, "-n", str(ranks), *valgrind, fixture.PERIMORPH, *map(str, arguments)]
         return subprocess.run(command, capture_output=True, text=True, timeout=3600)
 
     def assert_clean(self, run, status=0):
@@ -30,7 +32,7 @@ class UnderValgrind:
         self.assertEqual(run.returncode, status, run.stderr)
 
 
-class Plate(UnderValgrind, driver.Driver):
+class Plate(UnderValgrind, fixture.Plate):
     def test_a_run_that_breaks_bonds_and_writes_everything_and_goes_on(self):
         for ranks in [1, 2]:
             with self.subTest(ranks=ranks):
@@ -40,14 +42,14 @@ class Plate(UnderValgrind, driver.Driver):
                 self.assertEqual(len(self.history()), 4)
 
     def test_the_other_operator_and_files_for_each_rank(self):
-        self.assert_clean(self.run_case("--set", "Solver/Operator=CRS", "--set", "Solver/Preconditioner Matrix=Coupled",
-                                        "--set", "Output/Spread Files=true", ranks=2))
+        self.assert_clean(self.run_case(*settings("Solver/Operator=CRS", "Solver/Preconditioner Matrix=Coupled",
+                                                   "Output/Spread Files=true"), ranks=2))
 
     def test_check(self):
         self.assert_clean(self.perimorph("check", self.case))
 
     def test_a_mistake(self):
-        self.case.write_text(driver.CASE.replace('value="right"', 'value="rihgt"'))
+        self.write_case({"Boundary Conditions/Displacements/hold x/Group": "rihgt"})
         self.assert_clean(self.run_case(ranks=2), status=2)
 
     def test_a_computation_that_cannot_go_on(self):
@@ -57,7 +59,7 @@ class Plate(UnderValgrind, driver.Driver):
 class Block(UnderValgrind, in_3d.InThreeDimensions):
     def test_a_run_that_breaks_bonds(self):
         faster = [f"Boundary Conditions/Displacements/pull {way}/Rate={rate}" for way, rate in [("up", 0.2), ("down", -0.2)]]
-        self.assert_clean(self.run_case("--set", faster[0], "--set", faster[1], "--set", "Loading/Increments=4", "--set", "Output/Crack=true"))
+        self.assert_clean(self.run_case(*settings(*faster, "Loading/Increments=4", "Output/Crack=true")))
         self.assertGreater(float(self.history()[-1]["broken_bonds"]), 0)
 
 

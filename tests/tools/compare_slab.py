@@ -1,6 +1,6 @@
 """inputs/plate_with_hole_3d against inputs/plate_with_hole by tools/compare-slab, both with elements of 5 instead of 1.5.
 
-    compare_slab.py PERIMORPH RUN
+    compare_slab.py PERIMORPH MPIEXEC RUNS
 """
 
 import pathlib
@@ -8,11 +8,11 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PERIMORPH = sys.argv[1]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH, ROOT, InFolder, coarsen, settings
+
 del sys.argv[1:]
 
 PLANE_STRAIN = ["Material/Elastic Model=Plane Strain", "Material/Poisson's Ratio=0.25",
@@ -21,30 +21,25 @@ COARSER = ["Peridynamics/Horizon=15", "Peridynamics/Characteristic Length=1.6"]
 NO_ZONE = ["Morphing/Seeds/hole/Inner Radius=1e-9", "Morphing/Seeds/hole/Outer Radius=2e-9"]  # no element is in it
 
 
-class CompareSlab(unittest.TestCase):
+class CompareSlab(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         for name in ["plate_with_hole", "plate_with_hole_3d"]:
             shutil.copytree(ROOT / "inputs" / name, self.folder / name)
-        geometry = self.folder / "plate_with_hole/plate_with_hole.geo"
-        coarse = geometry.read_text().replace("dx = 1.5;", "dx = 5;")
-        self.assertIn("dx = 5;", coarse)
-        geometry.write_text(coarse)
+        coarsen(self.folder / "plate_with_hole/plate_with_hole.geo", "dx = 1.5;", "dx = 5;")
 
-    def run_case(self, name, settings):
+    def run_case(self, name, changes):
         command = [PERIMORPH, "run", self.folder / name / f"{name}.xml", "--output", self.folder / name / "out", "--quiet"]
-        subprocess.run(command + [part for value in settings for part in ("--set", value)], check=True, timeout=100)
+        subprocess.run(command + settings(*changes), check=True, timeout=100)
         return self.folder / name / "out"
 
     def compare(self, slab, plate):
         return subprocess.run([ROOT / "tools/compare-slab", slab, plate], capture_output=True, text=True, timeout=60)
 
-    def differences(self, settings):
+    def differences(self, changes):
         """Of u_x, u_y, u_z in all layers of nodes, and of the reactions."""
-        done = self.compare(self.run_case("plate_with_hole_3d", COARSER + settings),
-                            self.run_case("plate_with_hole", PLANE_STRAIN + COARSER + settings))
+        done = self.compare(self.run_case("plate_with_hole_3d", COARSER + changes),
+                            self.run_case("plate_with_hole", PLANE_STRAIN + COARSER + changes))
         self.assertEqual(done.returncode, 0, done.stderr)
         layers = re.findall(r"^z = \S+ +u_x (\S+) +u_y (\S+) +u_z (\S+)$", done.stdout, re.MULTILINE)
         self.assertEqual(len(layers), 3, done.stdout)

@@ -1,27 +1,22 @@
 """tools/new-case: every template makes a case that passes perimorph check, and mistakes are told.
 
-    new_case.py PERIMORPH RUNS
+    new_case.py PERIMORPH MPIEXEC RUNS
 """
 
 import csv
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-PERIMORPH = sys.argv[1]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH, TOOLS, InFolder
+
 del sys.argv[1:]
 TEMPLATES = sorted(folder.name for folder in (TOOLS / "templates").iterdir())
 
 
-class NewCase(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class NewCase(InFolder):
     def new_case(self, *arguments):
         return subprocess.run([TOOLS / "new-case", *map(str, arguments)], capture_output=True, text=True, timeout=30)
 

@@ -1,7 +1,7 @@
 """From a clone to a picture of a broken beam: the README's first two commands, as they are written. Only what they install and
 build is there already (tools/checks/fresh-machine does that, too).
 
-    newcomer.py PERIMORPH RUNS
+    newcomer.py PERIMORPH MPIEXEC RUNS
 """
 
 import pathlib
@@ -10,23 +10,22 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 import numpy
 from PIL import Image
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PERIMORPH = pathlib.Path(sys.argv[1])
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH, ROOT, InFolder, coarsen
+
 del sys.argv[1:]
 
 
-class Newcomer(unittest.TestCase):
+class Newcomer(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.clone = pathlib.Path(folder.name) / "perimorph"
+        super().setUp()
+        self.clone = self.folder / "perimorph"
         for part in ["tools", "inputs/notched_beam"]:
             shutil.copytree(ROOT / part, self.clone / part)
         (self.clone / "tools/build").write_text("#!/bin/sh\n")
@@ -55,9 +54,7 @@ class Newcomer(unittest.TestCase):
         """While a solve takes longer than mpirun leaves its processes after a signal, a second."""
         case = self.clone / "inputs/stopped"
         subprocess.run([self.clone / "tools/new-case", case, "--from", "block"], check=True, capture_output=True, timeout=60)
-        geometry = (case / "stopped.geo").read_text()
-        self.assertIn("dx = 1;", geometry)
-        (case / "stopped.geo").write_text(geometry.replace("dx = 1;", "dx = 0.5;"))
+        coarsen(case / "stopped.geo", "dx = 1;", "dx = 0.5;")
         run = subprocess.Popen([self.clone / "tools/run", case / "stopped.xml", "-n", "2", "--output", case / "out"],
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         history = case / "out/history.csv"

@@ -1,29 +1,24 @@
 """tools/paraview: the state it writes, loaded again by ParaView (paraview_inside.py).
 
-    paraview_state.py PERIMORPH RUNS
+    paraview_state.py PERIMORPH MPIEXEC RUNS
 """
 
 import ast
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy
 from PIL import Image
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-RUN = pathlib.Path(sys.argv[2]) / "small_plate/out"
-del sys.argv[1:]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import TOOLS, InFolder
+
+RUN = pathlib.Path(sys.argv.pop(1)) / "small_plate/out"
 
 
-class ParaView(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class ParaView(InFolder):
     def paraview(self, *arguments):
         return subprocess.run([TOOLS / "paraview", *arguments], capture_output=True, text=True, timeout=60,
                               cwd=self.folder)

@@ -1,21 +1,22 @@
 """tools/render: stills and films.
 
-    pictures.py PERIMORPH RUNS
+    pictures.py PERIMORPH MPIEXEC RUNS
 """
 
 import json
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy
 from PIL import Image
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-RUN, BLOCK = (pathlib.Path(sys.argv[2]) / name / "out" for name in ["small_plate", "small_block"])
-del sys.argv[1:]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import TOOLS, InFolder
+
+RUNS = pathlib.Path(sys.argv.pop(1))
+RUN, BLOCK = (RUNS / name / "out" for name in ["small_plate", "small_block"])
 
 
 def share_of(colour, file):
@@ -24,12 +25,7 @@ def share_of(colour, file):
     return float((numpy.abs(pixels - colour).max(axis=2) < 12).mean())
 
 
-class Render(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Render(InFolder):
     def render(self, *options, run=RUN):
         command = [TOOLS / "render", run, *options]
         return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=100)

@@ -1,10 +1,9 @@
 """tools/report and tools/plot-history on a finished run; and what they share: events, log, parameters.
 
-    report.py PERIMORPH RUNS
+    report.py PERIMORPH MPIEXEC RUNS
 """
 
 import html.parser
-import os
 import pathlib
 import re
 import shutil
@@ -13,11 +12,12 @@ import sys
 import tempfile
 import unittest
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-PERIMORPH, RUN = sys.argv[1], pathlib.Path(sys.argv[2]) / "small_plate/out"
-del sys.argv[1:]
-sys.path.insert(0, str(TOOLS / "lib"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH, TOOLS, InFolder
+
 import runs
+
+RUN = pathlib.Path(sys.argv.pop(1)) / "small_plate/out"
 
 
 class Page(html.parser.HTMLParser):
@@ -36,12 +36,7 @@ class Page(html.parser.HTMLParser):
         self.text += data
 
 
-class Report(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Report(InFolder):
     def report(self, run, *options):
         command = [TOOLS / "report", run, "-o", self.folder / "report.html", *options]
         return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=100)
@@ -106,14 +101,12 @@ class Report(unittest.TestCase):
         self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
 
-class Events(unittest.TestCase):
+class Events(InFolder):
     def history(self, forces, broken):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
         rows = [f"{n},{count},{force}" for n, (force, count) in enumerate(zip(forces, broken), start=1)]
-        file = os.path.join(folder.name, "history.csv")
-        pathlib.Path(file).write_text("\n".join(["increment,broken_bonds,reaction_top_y", *rows, ""]))
-        return runs.History(file)
+        file = self.folder / "history.csv"
+        file.write_text("\n".join(["increment,broken_bonds,reaction_top_y", *rows, ""]))
+        return runs.History(str(file))
 
     def test_are_the_first_break_large_drops_and_the_end(self):
         history = self.history([-1, -2, -3, -2.9, -4, -1, -1.5], [0, 0, 3, 4, 5, 90, 90])

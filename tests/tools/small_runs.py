@@ -1,6 +1,6 @@
 """Makes the runs that the tests of the tools look at: the templates "plate" and "block" with elements of 2 instead of 1.
 
-    small_runs.py PERIMORPH FOLDER
+    small_runs.py PERIMORPH MPIEXEC FOLDER
 """
 
 import pathlib
@@ -8,8 +8,10 @@ import shutil
 import subprocess
 import sys
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-PERIMORPH, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH, TOOLS, coarsen, settings
+
+FOLDER = pathlib.Path(sys.argv[1])
 
 COARSER = {
     "plate": ["Peridynamics/Horizon=6", "Peridynamics/Characteristic Length=0.4", "Boundary Conditions/Displacements/pull/Rate=0.003", "Loading/Increments=10"],
@@ -19,18 +21,15 @@ COARSER = {
 }
 
 
-def run(template, settings):
+def run(template, changes):
     """FOLDER/small_<template>, with the results in out."""
     case = FOLDER / f"small_{template}"
     subprocess.run([TOOLS / "new-case", case, "--from", template], check=True)
-    geometry = case / f"{case.name}.geo"
-    coarse = geometry.read_text().replace("dx = 1;", "dx = 2;")
-    assert "dx = 2;" in coarse
-    geometry.write_text(coarse)
+    coarsen(case / f"{case.name}.geo", "dx = 1;", "dx = 2;")
     subprocess.run([PERIMORPH, "run", case / f"{case.name}.xml", "--output", case / "out", "--quiet",
-                    *(part for value in settings for part in ("--set", value))], check=True)
+                    *settings(*changes)], check=True)
 
 
 shutil.rmtree(FOLDER, ignore_errors=True)
-for template, settings in COARSER.items():
-    run(template, settings)
+for template, changes in COARSER.items():
+    run(template, changes)

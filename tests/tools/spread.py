@@ -1,6 +1,6 @@
 """Spread files: what the program writes, tools/join, and the tools that draw them.
 
-    spread.py PERIMORPH RUNS MPIEXEC
+    spread.py PERIMORPH MPIEXEC RUNS
 """
 
 import ast
@@ -8,25 +8,23 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import netCDF4
 import numpy
 from PIL import Image
 
-TESTS = pathlib.Path(__file__).resolve().parents[1]
-TOOLS = TESTS.parent / "tools"
-PERIMORPH, _, MPIEXEC = sys.argv[1:4]
-sys.argv[1:4] = [PERIMORPH, MPIEXEC]  # as driver.py wants them
-sys.path[:0] = [str(TOOLS / "lib"), str(TESTS / "regression")]
-import restart
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import EVERY, INCREMENTS, N, TOOLS, GrowingCrack, settings, text_of
+
 import runs
 
-SPREAD = ["--set", "Output/Spread Files=true"]
+del sys.argv[1:]
+
+SPREAD = settings("Output/Spread Files=true")
 
 
-class Spread(restart.Restart):
+class Spread(GrowingCrack):
     def tool(self, name, *arguments):
         return subprocess.run([TOOLS / name, *map(str, arguments)], capture_output=True, text=True, timeout=200)
 
@@ -48,10 +46,10 @@ class Files(Spread):
         for ranks in [1, 2, 4]:
             with self.subTest(ranks=ranks):
                 self.output = self.folder / f"gathered-{ranks}"
-                self.run_until(restart.INCREMENTS, ranks=ranks)
+                self.run_until(INCREMENTS, ranks=ranks)
                 gathered = self.series()
                 self.output = self.folder / f"spread-{ranks}"
-                self.run_until(restart.INCREMENTS, *SPREAD, ranks=ranks)
+                self.run_until(INCREMENTS, *SPREAD, ranks=ranks)
                 self.assertEqual(self.files(), sorted(f"{file.name}.{ranks}.{rank}" for file in gathered for rank in range(ranks)))
                 self.assertGreater(len(gathered), 2)
                 (self.folder / f"joined-{ranks}").mkdir()
@@ -69,7 +67,7 @@ class Files(Spread):
             self.assertEqual(sizes(a), sizes(b))
             self.assertEqual(set(a.variables), set(b.variables))
             self.assertEqual(a.data_model, b.data_model)
-            seconds = restart.driver.text_of(b["name_glo_var"]).index("wall_seconds")
+            seconds = text_of(b["name_glo_var"]).index("wall_seconds")
             for name in set(b.variables) - {"qa_records", "info_records"}:
                 ours, theirs = a[name][:].data, b[name][:].data
                 self.assertEqual((a[name].dtype, a[name].dimensions), (b[name].dtype, b[name].dimensions), name)
@@ -79,11 +77,11 @@ class Files(Spread):
             self.assertEqual({k: a.getncattr(k) for k in a.ncattrs()}, {k: b.getncattr(k) for k in b.ncattrs()})
 
     def test_a_run_goes_on_with_them_on_any_number_of_ranks(self):
-        self.run_until(restart.INCREMENTS)
+        self.run_until(INCREMENTS)
         whole = self.damage()
         self.run_until(13, *SPREAD, ranks=2)
         before = set(self.files())
-        self.run_until(restart.INCREMENTS, *SPREAD, "--restart", ranks=3)
+        self.run_until(INCREMENTS, *SPREAD, "--restart", ranks=3)
         self.assertTrue(all(name.endswith((".2.0", ".2.1")) for name in before))
         self.assertTrue(all(name.endswith((".3.0", ".3.1", ".3.2")) for name in set(self.files()) - before))
         damage = self.damage()
@@ -92,16 +90,16 @@ class Files(Spread):
             numpy.testing.assert_allclose(damage[increment], whole[increment], atol=1e-12)
 
     def test_steps_after_the_checkpoint_are_written_anew(self):
-        self.run_until(13, *SPREAD, *restart.EVERY, ranks=2)
+        self.run_until(13, *SPREAD, *EVERY, ranks=2)
         older = {path: path.read_bytes() for path in self.output.glob("checkpoint*")}
-        self.run_until(15, *SPREAD, *restart.EVERY, "--restart", ranks=2)
+        self.run_until(15, *SPREAD, *EVERY, "--restart", ranks=2)
         for path in self.output.glob("checkpoint*"):
             path.unlink()
         for path, content in older.items():
             path.write_bytes(content)
-        self.run_until(restart.INCREMENTS, *SPREAD, *restart.EVERY, "--restart", ranks=2)
+        self.run_until(INCREMENTS, *SPREAD, *EVERY, "--restart", ranks=2)
         times = [time for file in self.joined() for time in file.times]
-        self.assertEqual(times, list(range(1, restart.INCREMENTS + 1)))
+        self.assertEqual(times, list(range(1, INCREMENTS + 1)))
 
     def test_a_joined_file_counts_until_a_rank_writes_again(self):
         self.run_until(13, *SPREAD, ranks=2)
@@ -109,17 +107,17 @@ class Files(Spread):
         used = lambda: {len(file.files) for file in self.joined()}
         self.assertEqual(self.tool("join", self.output).returncode, 0)
         self.assertEqual((shown()[-1], used()), (13, {1}))
-        self.run_until(restart.INCREMENTS, *SPREAD, "--restart", ranks=2)
-        self.assertEqual(shown(), list(range(1, restart.INCREMENTS + 1)))
+        self.run_until(INCREMENTS, *SPREAD, "--restart", ranks=2)
+        self.assertEqual(shown(), list(range(1, INCREMENTS + 1)))
         self.assertIn(2, used())
         self.assertEqual(self.tool("join", self.output).returncode, 0)
-        self.assertEqual((shown()[-1], used()), (restart.INCREMENTS, {1}))
+        self.assertEqual((shown()[-1], used()), (INCREMENTS, {1}))
         file = self.joined()[-1].files[0]
         os.utime(file + ".2.1")  # as if the run went on in this very file
-        self.assertEqual((shown()[-1], used()), (restart.INCREMENTS, {1, 2}))
+        self.assertEqual((shown()[-1], used()), (INCREMENTS, {1, 2}))
 
     def test_a_new_run_leaves_none_of_an_older_one(self):
-        self.run_until(restart.INCREMENTS, *SPREAD, ranks=2)
+        self.run_until(INCREMENTS, *SPREAD, ranks=2)
         self.run_until(2, *SPREAD, ranks=3)
         self.assertEqual(self.files(), [f"plate.e.3.{rank}" for rank in range(3)])
         self.run_until(2)
@@ -147,7 +145,7 @@ class Mistakes(Spread):
 class Pictures(Spread):
     def setUp(self):
         super().setUp()
-        self.run_until(restart.INCREMENTS, *SPREAD, ranks=2)
+        self.run_until(INCREMENTS, *SPREAD, ranks=2)
 
     def test_are_those_of_the_joined_files(self):
         (self.folder / "joined").mkdir()
@@ -170,9 +168,9 @@ class Pictures(Spread):
              "pvbatch", pathlib.Path(__file__).with_name("paraview_inside.py"), state], capture_output=True, text=True, timeout=200)
         self.assertEqual(loaded.returncode, 0, loaded.stderr)
         counts = ast.literal_eval(loaded.stdout)["counts"]
-        self.assertEqual(list(counts), [float(n) for n in range(1, restart.INCREMENTS + 1)])
+        self.assertEqual(list(counts), [float(n) for n in range(1, INCREMENTS + 1)])
         for at_time in counts.values():
-            self.assertEqual(at_time["series"], restart.driver.N**2)
+            self.assertEqual(at_time["series"], N**2)
 
 
 if __name__ == "__main__":

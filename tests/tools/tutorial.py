@@ -1,6 +1,6 @@
 """The README's "Your own part in ten minutes", done as it is written: its files, its changes, its commands.
 
-    tutorial.py PERIMORPH RUNS
+    tutorial.py PERIMORPH MPIEXEC RUNS
 """
 
 import copy
@@ -11,15 +11,15 @@ import re
 import shlex
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 import numpy
 from PIL import Image
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PERIMORPH = sys.argv[1]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH, ROOT, InFolder
+
 del sys.argv[1:]
 
 
@@ -36,11 +36,9 @@ def replace_list(root, new):
     parent[n] = new
 
 
-class Tutorial(unittest.TestCase):
+class Tutorial(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "tools").symlink_to(ROOT / "tools")
         (self.folder / "build/drivers").mkdir(parents=True)
         (self.folder / "build/drivers/perimorph").symlink_to(PERIMORPH)

@@ -1,6 +1,6 @@
 """tools/watch: what it shows, what it does not give away, and that the run goes first.
 
-    watch.py PERIMORPH RUNS
+    watch.py PERIMORPH MPIEXEC RUNS
 """
 
 import csv
@@ -24,26 +24,25 @@ import urllib.request
 import netCDF4
 import numpy
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
-PERIMORPH, RUNS = sys.argv[1], pathlib.Path(sys.argv[2])
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH, TOOLS, InFolder
+
+RUNS = pathlib.Path(sys.argv.pop(1))
 RUN = RUNS / "small_plate/out"
-del sys.argv[1:]
 
 
 def functions_of_watch():
     """The tool as a module, without its server."""
-    sys.path.insert(0, str(TOOLS / "lib"))
     loader = importlib.machinery.SourceFileLoader("watch_tool", str(TOOLS / "watch"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module
 
 
-class Watch(unittest.TestCase):
+class Watch(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.run_folder = pathlib.Path(folder.name) / "run"
+        super().setUp()
+        self.run_folder = self.folder / "run"
         self.run_folder.mkdir()
         (self.run_folder.parent / "secret").write_text("secret")
 

@@ -15,24 +15,6 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__))
 TOOLS = os.path.join(ROOT, "tools")
 
 
-def xml(name, value):
-    """A parameter, or a list of them."""
-    if isinstance(value, dict):
-        return f'<ParameterList name="{name}">\n' + "".join(xml(*item) for item in value.items()) + "</ParameterList>\n"
-    kind = {float: "double", int: "int", list: "Array(double)"}.get(type(value), "string")
-    if isinstance(value, list):
-        value = "{" + ", ".join(repr(float(number)) for number in value) + "}"
-    elif isinstance(value, str) and value.startswith("{"):
-        kind = "Array(string)" if name == "Reactions" else "Array(double)"
-    return f'<Parameter name="{name}" type="{kind}" value="{value}"/>\n'
-
-
-def write_case(file, case):
-    """A case file from nested dictionaries."""
-    with open(file, "w") as out:
-        out.write(xml(os.path.splitext(os.path.basename(file))[0], case))
-
-
 def make_mesh(stem, geometry, *options, dimension=2):
     """<stem>.msh of gmsh's geometry, which is kept as <stem>.geo."""
     with open(stem + ".geo", "w") as out:

@@ -6,7 +6,8 @@ import subprocess
 import matplotlib.pyplot as plt
 import numpy as np
 
-from cases import run, write_case
+from case_file import write_case
+from cases import run
 from fields import Displacement
 from messages import fail
 from precision_runs import material, plane_constants, prescribed, write_body, write_rows
@@ -98,7 +99,7 @@ def case_of(mesh, dx, boundary, positions, layers, variant):
         "Morphing": morphing,
         "Boundary Conditions": {"Displacements": prescribed(boundary, kirsch(positions, layers), layers)},
         "Loading": {"Increments": 1},
-        "Output": {"Reactions": "{n%d}" % boundary[0]},
+        "Output": {"Reactions": [f"n{boundary[0]}"]},
     }
 
 

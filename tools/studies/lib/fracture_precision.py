@@ -6,7 +6,8 @@ import os
 import matplotlib.pyplot as plt
 import numpy as np
 
-from cases import make_mesh, run, write_case
+from case_file import write_case
+from cases import make_mesh, run
 from messages import fail
 from precision_runs import material, plane_constants, prescribed, write_body, write_rows
 
@@ -206,7 +207,7 @@ def case_of(folder, setting):
         "Pre-Cracks": {"crack": line},
         "Boundary Conditions": {"Displacements": prescribed(boundary, displacements, layers)},
         "Loading": {"Increments": 250, "Breaking Fraction": setting["fraction"]},
-        "Output": {"Every": 1000, "Reactions": "{n%d}" % boundary[0]},
+        "Output": {"Every": 1000, "Reactions": [f"n{boundary[0]}"]},
     }
 
 

@@ -5,7 +5,8 @@ the caller says otherwise, l = 1/5. Nothing breaks."""
 
 import os
 
-from cases import make_mesh, write_case
+from case_file import write_case
+from cases import make_mesh
 
 GEOMETRY = """
 n = {n};
@@ -85,6 +86,6 @@ def body(folder, n, model, policy, dimension, horizon):
         "Boundary Conditions": {"Displacements": held, "Tractions": {"pull": {"Group": "top", "Rate": [0, 1, 0][:dimension]}}},
         "Loading": {"Increments": 1},
         "Solver": {"Tolerance": 1e-6, "Damage Tolerance": 1e-6},  # equal: one solve, unless its residual falls short
-        "Output": {"Reactions": "{bottom}"},
+        "Output": {"Reactions": ["bottom"]},
     })
     return file
