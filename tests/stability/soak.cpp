@@ -9,7 +9,7 @@
 #include <Tpetra_Core.hpp>
 #include <fstream>
 
-#include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/fracture/run_observer.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_directory.hpp"
@@ -106,9 +106,10 @@ struct WholeRun {
   }
 
   void advance_to(const fracture::Case& input, int increment) {
-    fracture::LoopPosition position;
-    fracture::run_adaptive_loop(body, results, checkpoints,
-                                {increment, input.max_damage_iterations, input.max_zone_growths}, position);
+    fracture::RunObserver<2> observer(results, checkpoints);
+    fracture::LoopPosition position{checkpoints.increment()};
+    fracture::run_adaptive_loop(body, {increment, input.max_damage_iterations, input.max_zone_growths}, observer,
+                                position);
     body.forget_solves();  // the preconditioner is not there after a restart
   }
 

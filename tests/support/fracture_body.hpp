@@ -4,7 +4,7 @@
 
 #include <Tpetra_Core.hpp>
 
-#include "perimorph/fracture/body.hpp"
+#include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/mesh/distribute.hpp"
 #include "support/meshes.hpp"
 
@@ -72,6 +72,9 @@ fracture::BodyOptions make_options(const SpecimenIn<dim>& specimen) {
   return options;
 }
 
+inline constexpr int most = std::numeric_limits<int>::max();
+inline constexpr fracture::LoopLimits unlimited = {most, most, most};
+
 /// A body and all that must outlive it.
 template <int dim>
 struct SpecimenBodyIn {
@@ -86,19 +89,16 @@ struct SpecimenBodyIn {
         problem(make_problem(specimen)),
         body(comm, mesh, problem, make_options(specimen), profile) {}
 
-  /// One increment of the adaptive loop (WHL19, Fig. 5), as in fracture::run_adaptive_loop but
-  /// with one tolerance. Returns the solves.
+  fracture::LoopPosition position = {};
+
+  /// One increment of the adaptive loop. Returns the solves.
   int advance(double load_factor) {
-    int solves = 0;
-    body.apply_load(load_factor);
-    do {
-      body.update_topology();
-      do {
-        body.solve(fracture::Accuracy::accepted);
-        ++solves;
-      } while (body.break_bonds() > 0);
-    } while (body.flag_damaged_elements() > 0);
-    return solves;
+    struct Count : fracture::LoopObserver<dim> {
+      int solves = 0;
+      void solved(int, const fracture::Body<dim>&) override { ++solves; }
+    } count;
+    fracture::run_increment(body, load_factor, unlimited, count, position);
+    return count.solves;
   }
 };
 using SpecimenBody = SpecimenBodyIn<2>;

@@ -174,6 +174,31 @@ struct Criticals {
   double first = 0., peak = 0.;
 };
 
+/// Watches a crack until it has grown by four elements.
+class CrackWatch : public fracture::LoopObserver<2> {
+ public:
+  /// @param stress_intensity of the body as it stands, over the critical one [-]
+  CrackWatch(std::function<double(const fracture::Body<2>&)> stress_intensity, double energy_of_growth)
+      : stress_intensity_(std::move(stress_intensity)), energy_of_growth_(energy_of_growth) {}
+
+  void solved(int increment, const fracture::Body<2>& body) override {
+    if (found.first == 0. && body.counts().broken_bonds > 0) found.first = last_;
+    last_ = stress_intensity_(body);
+    if (increment != increment_) found.peak = std::max(found.peak, last_);
+    increment_ = increment;
+    has_grown_ = body.energies().dissipated > energy_of_growth_;
+  }
+  bool stop_requested() override { return has_grown_; }
+
+  Criticals found;
+
+ private:
+  std::function<double(const fracture::Body<2>&)> stress_intensity_;
+  double energy_of_growth_, last_ = 0.;
+  int increment_ = 0;  ///< of the last solve
+  bool has_grown_ = false;
+};
+
 /// Raises the load in steps of a hundredth of the handbook's until the crack has grown by four elements. The fracture
 /// energy is the one that belongs to the critical stretch on this mesh; a crack's growth is the energy that it took.
 Criticals criticals(const CrackTest& test, const Setting& setting) {
@@ -183,36 +208,21 @@ Criticals criticals(const CrackTest& test, const Setting& setting) {
       fracture::lattice_resistance(setting.discontinuous, setting.stiffness, setting.characteristic_length);
   const double fracture_energy = resistance * resistance * specimen.problem.fracture_energy;
   const double critical = std::sqrt(1000. * fracture_energy);
-  const auto grown = [&] {
-    const auto energies = body.energies();
-    return (energies.external_work - energies.elastic) / fracture_energy;
-  };
   body.apply_load(1.);
   body.update_topology();
   body.solve(fracture::Accuracy::accepted);
   const double handbook = critical / test.stress_intensity(body, 0.);
 
-  Criticals found;
+  double grown = 0.;  // before the increment
+  CrackWatch watch([&](const auto& now) { return test.stress_intensity(now, grown) / critical; },
+                   4. * specimen.problem.fracture_energy);
   for (double load = 0.5 * handbook; load < 2.5 * handbook; load += 0.01 * handbook) {
-    const double grown_before = grown();
-    body.apply_load(load);
-    bool is_first = true, has_grown = false;
-    do {
-      body.update_topology();
-      bool broke;
-      do {
-        body.solve(fracture::Accuracy::accepted);
-        const double k = test.stress_intensity(body, grown_before) / critical;
-        if (is_first) found.peak = std::max(found.peak, k);
-        is_first = false;
-        broke = body.break_bonds() > 0;
-        if (broke && found.first == 0.) found.first = k;
-        has_grown = body.energies().dissipated > 4. * specimen.problem.fracture_energy;
-      } while (broke && !has_grown);
-    } while (body.flag_damaged_elements() > 0 && !has_grown);
-    if (has_grown) break;
+    const auto energies = body.energies();
+    grown = (energies.external_work - energies.elastic) / fracture_energy;
+    const auto end = fracture::run_increment(body, load, unlimited, watch, specimen.position);
+    if (end == fracture::LoopEnd::stopped) break;
   }
-  return found;
+  return watch.found;
 }
 
 struct Handbook {

@@ -32,7 +32,7 @@ Signals::~Signals() {
   std::signal(SIGUSR1, old_user_);
 }
 
-Signals::Wishes Signals::look(const Comm& comm) {
+Signals::Requests Signals::look(const Comm& comm) {
   const bool is_asked = checkpoint_asked != 0;
   checkpoint_asked = 0;
   const GlobalId stop = max(comm, static_cast<GlobalId>(stop_signal));

@@ -15,34 +15,47 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
 }  // namespace
 
 template <int dim>
-bool run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints, const LoopLimits& limits,
-                       LoopPosition& position) {
-  for (int increment = checkpoints.increment() + 1; increment <= limits.increments; ++increment) {
-    if (position.damage_iterations == 0) body.apply_load(increment);
-    do {
-      body.update_topology();
-      if (checkpoints.parts_anew(body)) return false;
-      check_limit(position.growths++, limits.max_zone_growths, increment, "growths of the zone",
-                  "Maximum Zone Growths");
-      const auto breaks = [&](Accuracy accuracy) {
-        check_limit(position.damage_iterations++, limits.max_damage_iterations, increment, "solves",
-                    "Maximum Damage Iterations");
-        body.solve(accuracy);
-        results.show_progress(increment, body);
-        checkpoints.heed_signals();
-        return body.break_bonds() > 0;
-      };
-      while (breaks(Accuracy::breaking) || breaks(Accuracy::accepted)) {
-      }
-    } while (body.flag_damaged_elements() > 0);
-    position = {};
-    results.accept(increment, body);
-    checkpoints.accept(increment, body, results);
-  }
-  return true;
+LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& limits, LoopObserver<dim>& observer,
+                      LoopPosition& position) {
+  const int increment = position.increment + 1;
+  if (position.damage_iterations == 0) body.apply_load(load_factor);
+  do {
+    body.update_topology();
+    if (observer.rebalance_wanted(body)) return LoopEnd::rebalance;
+    check_limit(position.growths++, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
+    bool stopped = false;
+    const auto breaks = [&](Accuracy accuracy) {
+      check_limit(position.damage_iterations++, limits.max_damage_iterations, increment, "solves",
+                  "Maximum Damage Iterations");
+      body.solve(accuracy);
+      observer.solved(increment, body);
+      stopped = observer.stop_requested();
+      return !stopped && body.break_bonds() > 0;
+    };
+    while (breaks(Accuracy::breaking) || (!stopped && breaks(Accuracy::accepted))) {
+    }
+    if (stopped) return LoopEnd::stopped;
+  } while (body.flag_damaged_elements() > 0);
+  position = {increment};
+  observer.accepted(increment, body);
+  return LoopEnd::done;
 }
 
-template bool run_adaptive_loop<2>(Body<2>&, Results<2>&, Checkpoints<2>&, const LoopLimits&, LoopPosition&);
-template bool run_adaptive_loop<3>(Body<3>&, Results<3>&, Checkpoints<3>&, const LoopLimits&, LoopPosition&);
+template <int dim>
+LoopEnd run_adaptive_loop(Body<dim>& body, const LoopLimits& limits, LoopObserver<dim>& observer,
+                          LoopPosition& position) {
+  auto end = LoopEnd::done;
+  while (end == LoopEnd::done && position.increment < limits.increments) {
+    end = run_increment(body, position.increment + 1, limits, observer, position);
+  }
+  return end;
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                               \
+  template LoopEnd run_increment<dim>(Body<dim>&, double, const LoopLimits&, LoopObserver<dim>&, LoopPosition&); \
+  template LoopEnd run_adaptive_loop<dim>(Body<dim>&, const LoopLimits&, LoopObserver<dim>&, LoopPosition&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
 
 }  // namespace perimorph::fracture

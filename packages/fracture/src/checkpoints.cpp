@@ -264,7 +264,7 @@ void Checkpoints<dim>::accept(int increment, Body<dim>& body, const Results<dim>
 /// A new partition is worth its price only if the zone has grown since the last one: what was uneven then cannot be
 /// mended.
 template <int dim>
-bool Checkpoints<dim>::parts_anew(const Body<dim>& body) {
+bool Checkpoints<dim>::rebalance_wanted(const Body<dim>& body) {
   constexpr double growth = 1.2;
   if (comm_->getSize() == 1 || body.counts().topologies == weighed_topology_) return false;
   weighed_topology_ = body.counts().topologies;
@@ -279,12 +279,11 @@ bool Checkpoints<dim>::parts_anew(const Body<dim>& body) {
 }
 
 template <int dim>
-void Checkpoints<dim>::heed_signals() {
-  const auto wishes = signals_.look(*comm_);
-  is_asked_ = is_asked_ || wishes.checkpoint;
-  if (wishes.stop.empty()) return;
-  throw base::ComputationError(
-      fmt::format("{} asked it to stop; --restart goes on after increment {}", wishes.stop, increment_));
+bool Checkpoints<dim>::stop_requested() {
+  const auto requests = signals_.look(*comm_);
+  is_asked_ = is_asked_ || requests.checkpoint;
+  stop_signal_ = requests.stop;
+  return !stop_signal_.empty();
 }
 
 template <int dim>

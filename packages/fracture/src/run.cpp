@@ -8,11 +8,11 @@
 
 #include "balance.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/fracture/advice.hpp"
 #include "perimorph/fracture/automatic_seeds.hpp"
 #include "perimorph/fracture/calibration.hpp"
 #include "perimorph/input/resolved.hpp"
+#include "perimorph/fracture/run_observer.hpp"
 #include "perimorph/mesh/mesh_report.hpp"
 #include "temporary_folder.hpp"
 
@@ -97,6 +97,7 @@ void save_what_is_left(Checkpoints<dim>& checkpoints, spdlog::logger& log) {
 }
 
 /// Goes on with one partition of the mesh, as far as it serves; returns whether the run is done.
+/// @throws ComputationError if it was asked to stop, and as run_adaptive_loop does.
 template <int dim>
 bool run_on(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
             const Problem<dim>& problem, const std::string& folder, const Voice& voice, base::Profile& profile,
@@ -105,10 +106,15 @@ bool run_on(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& m
   Results<dim> results(comm, input, folder, voice, profile, checkpoints.increment(), checkpoints.results());
   results.add_exports(std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment()));
   checkpoints.restore(body);
+  RunObserver<dim> observer(results, checkpoints);
   const LoopLimits limits{input.increments, input.max_damage_iterations, input.max_zone_growths};
-  const bool is_done = run_adaptive_loop(body, results, checkpoints, limits, position);
-  if (is_done) results.summarize(body);
-  return is_done;
+  const LoopEnd end = run_adaptive_loop(body, limits, observer, position);
+  if (end == LoopEnd::stopped) {
+    throw base::ComputationError(fmt::format("{} asked it to stop; --restart goes on after increment {}",
+                                             checkpoints.stop_signal(), checkpoints.increment()));
+  }
+  if (end == LoopEnd::done) results.summarize(body);
+  return end == LoopEnd::done;
 }
 
 template <int dim>
@@ -141,7 +147,7 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     place_and_calibrate(comm, mesh, input, problem, profile, log);
     const Voice voice{log, talk == Talk::progress && comm->getRank() == 0};
     try {
-      LoopPosition position;
+      LoopPosition position{checkpoints.increment()};
       while (!run_on(comm, mesh, input, problem, folder, voice, profile, checkpoints, position)) mesh = distribute();
     } catch (const base::ComputationError&) {
       save_what_is_left(checkpoints, *log);

@@ -18,11 +18,11 @@ class Signals {
 
   /// What came on any rank since the beginning: the name of the signal to stop at ("" if none came), and whether
   /// SIGUSR1 came since the last look. Collective.
-  struct Wishes {
+  struct Requests {
     std::string stop;
     bool checkpoint;
   };
-  Wishes look(const Comm& comm);
+  Requests look(const Comm& comm);
 
  private:
   void (*old_terminate_)(int);

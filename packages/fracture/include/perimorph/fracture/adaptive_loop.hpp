@@ -1,8 +1,6 @@
 #pragma once
 
 #include "perimorph/fracture/body.hpp"
-#include "perimorph/fracture/checkpoints.hpp"
-#include "perimorph/fracture/results.hpp"
 
 namespace perimorph::fracture {
 
@@ -13,18 +11,47 @@ struct LoopLimits {
   int max_zone_growths;       ///< changes of topology within one increment
 };
 
-/// How far the loop has come within an increment.
+/// How far the loop has come: the last accepted increment, and what the next one has taken already.
 struct LoopPosition {
+  int increment = 0;
   int growths = 0, damage_iterations = 0;
 };
 
-/// The adaptive algorithm of WHL19, Fig. 5: load increments; in each, bonds break and the peridynamic zone grows until
-/// neither happens any more. Begins after the increment that the checkpoints have loaded. Returns whether all
-/// increments are done; otherwise it is to be called again from its position, with the mesh parted anew. Collective.
-/// @throws base::ComputationError if the solver fails, a limit is passed, a signal asks to stop or the disk is full;
-/// the results of all accepted increments are then on disk.
+/// Why the loop returns: all is done; it was asked to stop; or the mesh is to be partitioned anew, after which the loop
+/// goes on from its position with a body restored from the state of this one.
+enum class LoopEnd { done, stopped, rebalance };
+
+/// Hears of what happens in the loop, and may interrupt it. All calls are collective, and all ranks answer alike.
 template <int dim>
-bool run_adaptive_loop(Body<dim>& body, Results<dim>& results, Checkpoints<dim>& checkpoints, const LoopLimits& limits,
-                       LoopPosition& position);
+class LoopObserver {
+ public:
+  virtual ~LoopObserver() = default;
+
+  /// An increment is accepted: nothing breaks any more.
+  virtual void accepted(int /*increment*/, Body<dim>& /*body*/) {}
+
+  /// The forces balance; what is overstretched has not broken yet.
+  virtual void solved(int /*increment*/, const Body<dim>& /*body*/) {}
+
+  /// Whether the loop is to return now, after a solve.
+  virtual bool stop_requested() { return false; }
+
+  /// Whether the loop is to return for a new partition, after a change of topology.
+  virtual bool rebalance_wanted(const Body<dim>& /*body*/) { return false; }
+};
+
+/// One increment of the adaptive algorithm of WHL19, Fig. 5, the one after the position's: bonds break and the
+/// peridynamic zone grows until neither happens any more. Collective.
+/// @param load_factor of the increment; a position within it has applied it already
+/// @throws base::ComputationError if the solver fails or a limit is passed
+template <int dim>
+LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& limits, LoopObserver<dim>& observer,
+                      LoopPosition& position);
+
+/// The adaptive algorithm of WHL19, Fig. 5: increments whose load factor is their number, from the position on.
+/// Collective. @throws as run_increment; all accepted increments have been observed.
+template <int dim>
+LoopEnd run_adaptive_loop(Body<dim>& body, const LoopLimits& limits, LoopObserver<dim>& observer,
+                          LoopPosition& position);
 
 }  // namespace perimorph::fracture

@@ -38,8 +38,8 @@ class Checkpoints {
   int increment() const { return increment_; }
   const std::optional<ResultsState>& results() const { return results_; }
 
-  /// The body goes on from what was loaded, or from where parts_anew() left the last one; checkpoints after the last
-  /// accepted increment are removed. Collective.
+  /// The body goes on from what was loaded, or from where rebalance_wanted() left the last one; checkpoints after the
+  /// last accepted increment are removed. Collective.
   void restore(Body<dim>& body);
 
   /// Remembers an accepted increment, and writes it if it is due. At every /Output/Checkpoint Every increments, the run
@@ -50,10 +50,11 @@ class Checkpoints {
   /// If the ranks share the work so unevenly that another partition of the mesh is worth its price: remembers where the
   /// body stands, for another one to go on from there, and returns true. To be called when the topology has just been
   /// updated. Collective.
-  bool parts_anew(const Body<dim>& body);
+  bool rebalance_wanted(const Body<dim>& body);
 
-  /// @throws ComputationError if a signal has asked the run to stop. Collective.
-  void heed_signals();
+  /// Whether a signal has asked the run to stop. Collective.
+  bool stop_requested();
+  const std::string& stop_signal() const { return stop_signal_; }  ///< its name; "" if there was none
 
   /// Writes what is remembered, if that is not on disk already. Collective. @throws ComputationError if it cannot be.
   void write();
@@ -82,6 +83,7 @@ class Checkpoints {
   bool has_start_ = false;
 
   base::Signals signals_;
+  std::string stop_signal_;
   bool is_asked_ = false;
   double last_written_ = 0.;
 
