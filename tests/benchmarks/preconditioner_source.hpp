@@ -9,24 +9,23 @@ namespace perimorph::tests {
 /// What the program sets its preconditioner up from.
 struct PreconditionerSource {
   Teuchos::RCP<const operators::PointBasis<2>> basis;  ///< null: the unknowns are those of nodes
-  std::unique_ptr<operators::CoupledStiffness<2>> stiffness;
+  std::unique_ptr<operators::StiffnessMatrix<2>> stiffness;
   solvers::NearNullSpace modes;
 };
 
 /// With "Preconditioner Matrix" = "Coupled".
 inline PreconditionerSource coupled(const CoupledBody& body) {
-  auto stiffness = std::make_unique<operators::CoupledStiffness<2>>(body.model(), body.supports());
+  auto stiffness = body.matrix_of(operators::all_bonds, Teuchos::null);
   const auto modes = solvers::rigid_body_modes<2>(*stiffness->matrix(), body.node_coordinates());
   return {Teuchos::null, std::move(stiffness), modes};
 }
 
 /// With "Short-Range" and the default cut-off.
 inline PreconditionerSource short_range(const CoupledBody& body, double horizon) {
-  const auto supports = body.supports();
-  const auto basis = Teuchos::rcp(new operators::PointBasis<2>(body.model(), supports, body.discontinuous));
+  const auto basis = body.point_basis();
   const auto bonds =
       operators::short_range(body.model(), *body.comm, operators::default_short_range_cut_off(2) * horizon);
-  auto stiffness = std::make_unique<operators::CoupledStiffness<2>>(body.model(), supports, bonds, basis);
+  auto stiffness = body.matrix_of(bonds, basis);
   auto coordinates = body.node_coordinates();
   basis->move_to_points(coordinates);
   const auto modes = solvers::rigid_body_modes<2>(*stiffness->matrix(), coordinates);

@@ -104,7 +104,8 @@ class Solution {
         correction_(load.getMap()) {}
 
   void solve_anew(const std::string& state) {
-    stiffness_ = Teuchos::rcp(new operators::MatrixFreeStiffness<2>(body_.model(), body_.supports()));
+    terms_ = body_.terms();
+    stiffness_ = Teuchos::rcp(new operators::MatrixFreeTangent<2>(body_.tangent(terms_)));
     source_ = short_range(body_, horizon);
     solver_ = std::make_unique<solvers::LinearSolver>(solvers::SolverParameters{}, profile_);
     solver_->set_operator(stiffness_, source_.stiffness->matrix(), source_.modes, source_.basis);
@@ -114,8 +115,8 @@ class Solution {
 
   void solve_again(const std::string& state, const std::vector<std::size_t>& broken) {
     const Stopwatch watch;
-    stiffness_->subtract(broken);
-    source_.stiffness->subtract(broken);
+    for (const auto& term : terms_) term->take({broken});
+    source_.stiffness->take({broken});
     correct(state, watch.seconds());
   }
 
@@ -125,7 +126,8 @@ class Solution {
   const Vector& load_;
   Vector x_, residual_, correction_;
   base::Profile profile_;
-  Teuchos::RCP<operators::MatrixFreeStiffness<2>> stiffness_;
+  operators::ForceTerms<2> terms_;
+  Teuchos::RCP<operators::MatrixFreeTangent<2>> stiffness_;
   PreconditionerSource source_;
   std::unique_ptr<solvers::LinearSolver> solver_;
 

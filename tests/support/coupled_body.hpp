@@ -7,9 +7,11 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <set>
 
-#include "perimorph/operators/coupled_stiffness.hpp"
+#include "perimorph/operators/bond_forces.hpp"
 #include "perimorph/operators/fields.hpp"
-#include "perimorph/operators/matrix_free_stiffness.hpp"
+#include "perimorph/operators/local_forces.hpp"
+#include "perimorph/operators/matrix_free_tangent.hpp"
+#include "perimorph/operators/stiffness_matrix.hpp"
 #include "support/meshes.hpp"
 
 namespace perimorph::tests {
@@ -32,15 +34,17 @@ struct CoupledBody {
   mesh::Mesh<2> mesh;
   base::Stiffness<2> e0;
   materials::Micromodulus c0;
-  elements::MaterialPoints<2> points;
-  morphing::MorphingField<2> alpha;
-  bonds::BondFamilies<2> bonds;
-  operators::MorphedStiffness<2> elasticity;
+  discretization::Topology<2> topology;
+  const elements::MaterialPoints<2>& points = topology.points();
+  const morphing::MorphingField<2>& alpha = topology.alpha();
+  const bonds::BondFamilies<2>& bonds = topology.bonds();
+  const std::vector<morphing::ElementClass>& classes = topology.classes();
+  const std::vector<char>& discontinuous = topology.discontinuous();
   discretization::Dirichlet<2> dirichlet;
-  std::vector<morphing::ElementClass> classes;
-  std::vector<char> discontinuous;
-  std::unique_ptr<discretization::DofMap<2>> dofs;
-  std::unique_ptr<operators::CoupledStiffness<2>> stiffness;
+  operators::MorphedStiffness<2> elasticity;
+  const discretization::DofMap<2>* dofs = nullptr;
+  std::unique_ptr<discretization::Space<2>> space;
+  std::unique_ptr<operators::StiffnessMatrix<2>> stiffness;
 
   static constexpr double youngs_modulus = 1000.;
 
@@ -52,38 +56,43 @@ struct CoupledBody {
         e0(materials::elasticity_tensor<2>(materials::ElasticModel::plane_stress, youngs_modulus, 1. / 3.)),
         c0(materials::calibrate<2>(materials::ElasticModel::plane_stress, youngs_modulus, setup.characteristic_length,
                                    setup.horizon)),
-        points(mesh),
-        alpha(mesh, points, morphing::BlendingFunction::linear),
-        bonds(mesh, points, mesh::active_elements(mesh), c0, setup.pre_cracks, setup.kept),
-        elasticity(e0, setup.policy),
+        topology(comm, mesh,
+                 {setup.zones, setup.pre_cracks, c0, morphing::BlendingFunction::linear,
+                  setup.whole_zone_discontinuous ? discretization::DiscontinuousElements::whole_zone
+                                                 : discretization::DiscontinuousElements::on_damage,
+                  2., 4., 2, setup.kept}),
         dirichlet(*comm, mesh, setup.prescribed),
-        classes(mesh.n_elements(), morphing::ElementClass::fe),
-        discontinuous(mesh.n_elements(), 0) {
-    bonds.extend(alpha.add(setup.zones));
-    const auto extremes = bonds.neighbourhood_extremes(alpha);
-    for (int e = 0; e < mesh.n_owned_elements; ++e) {
-      double smallest = 1., largest = 0.;
-      for (int p = points.first(e); p < points.first(e + 1); ++p) {
-        smallest = std::min(smallest, extremes.smallest[p]);
-        largest = std::max(largest, extremes.largest[p]);
-      }
-      classes[e] = smallest == 1. ? morphing::ElementClass::pd
-                   : largest > 0. ? morphing::ElementClass::morph
-                                  : morphing::ElementClass::fe;
-      discontinuous[e] = setup.whole_zone_discontinuous && classes[e] == morphing::ElementClass::pd;
-    }
-    const auto exchange = discretization::element_exchange(*comm, mesh);
-    exchange.update(classes);
-    exchange.update(discontinuous);
+        elasticity(e0, setup.policy) {
+    topology.update(topology.grow({}));
     elasticity.update(mesh, points, bonds, alpha, classes, discontinuous);
-    dofs = std::make_unique<discretization::DofMap<2>>(comm, mesh, discretization::corner_exchange(*comm, mesh),
-                                                       discontinuous);
-    stiffness = std::make_unique<operators::CoupledStiffness<2>>(model(), supports());
+    dofs = &topology.dofs();
+    space = std::make_unique<discretization::Space<2>>(*dofs, dirichlet);
+    make_matrix();
   }
+  CoupledBody(const CoupledBody&) = delete;
+  CoupledBody& operator=(const CoupledBody&) = delete;
 
   operators::CoupledModel<2> model() const { return {mesh, points, bonds, alpha, elasticity, *dofs}; }
 
-  operators::Supports<2> supports() const { return {model(), dirichlet, discontinuous}; }
+  operators::Supports<2> supports() const { return {model(), *space, discontinuous}; }
+
+  /// Local elements, bonds and anchors, without the bonds that are broken now.
+  operators::ForceTerms<2> terms() const {
+    return {Teuchos::rcp(new operators::LocalForces<2>(model())), Teuchos::rcp(new operators::BondForces<2>(model())),
+            Teuchos::rcp(new operators::Anchors<2>(supports().anchors))};
+  }
+  operators::MatrixFreeTangent<2> tangent(operators::ForceTerms<2> of_terms) const {
+    return {*space, std::move(of_terms), supports().constraints};
+  }
+  std::unique_ptr<operators::StiffnessMatrix<2>> matrix_of(
+      const operators::BondSelection& selection, const Teuchos::RCP<const operators::PointBasis<2>>& basis) const {
+    return std::make_unique<operators::StiffnessMatrix<2>>(model(), *space, terms(), supports().constraints, selection,
+                                                           basis);
+  }
+  void make_matrix() { stiffness = matrix_of(operators::all_bonds, Teuchos::null); }
+  Teuchos::RCP<const operators::PointBasis<2>> point_basis() const {
+    return Teuchos::rcp(new operators::PointBasis<2>(model(), *space, discontinuous));
+  }
 
   /// Of the owned nodes.
   std::vector<Point2> node_coordinates() const {
@@ -118,7 +127,7 @@ struct CoupledBody {
 
   /// Returns the bonds that it breaks.
   std::vector<std::size_t> break_bonds(std::vector<std::size_t> broken) {
-    for (const auto b : broken) bonds.set_broken(b);
+    topology.take({broken});
     return broken;
   }
 

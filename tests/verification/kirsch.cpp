@@ -80,7 +80,7 @@ Point2 errors(const Specimen& specimen) {
   Point2 error = Point2::Zero(), largest = Point2::Zero();
   for (int n = 0; n < model.dofs.n_nodes(); ++n) {
     const Point2 exact = kirsch(model.mesh.coordinates[model.dofs.reference_node(n)]);
-    const Point2 u = Eigen::Map<const Point2>(test.body.displacement() + 2 * n);
+    const Point2 u = base::at_node<2>(test.body.displacement(), n);
     error = error.cwiseMax((u - exact).cwiseAbs());
     largest = largest.cwiseMax(exact.cwiseAbs());
   }

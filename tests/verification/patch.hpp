@@ -33,7 +33,7 @@ Eigen::Matrix<double, dim, Eigen::Dynamic> mean_displacement(const fracture::Bod
   std::vector<int> count(model.mesh.n_nodes(), 0);
   for (int n = 0; n < model.dofs.n_nodes(); ++n) {
     const int reference = model.dofs.reference_node(n);
-    sum.col(reference) += Eigen::Map<const base::Point<dim>>(body.displacement() + dim * n);
+    sum.col(reference) += base::at_node<dim>(body.displacement(), n);
     ++count[reference];
   }
   for (int n = 0; n < sum.cols(); ++n) sum.col(n) /= count[n];
@@ -63,7 +63,7 @@ Errors errors(const fracture::Body<dim>& body, const GradientIn<dim>& gradient) 
   double largest = 0.;
   for (int n = 0; n < model.dofs.n_nodes(); ++n) {
     const Point exact = gradient * model.mesh.coordinates[model.dofs.reference_node(n)];
-    const Point u = Eigen::Map<const Point>(body.displacement() + dim * n);
+    const Point u = base::at_node<dim>(body.displacement(), n);
     largest = std::max(largest, exact.norm());
     errors.displacement = std::max(errors.displacement, (u - exact).norm());
   }
@@ -74,7 +74,7 @@ Errors errors(const fracture::Body<dim>& body, const GradientIn<dim>& gradient) 
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     const auto mean_at = [&](int k) -> Point { return mean.col(model.mesh.corners_of(e)[k]); };
     const auto own_at = [&](int k) -> Point {
-      return Eigen::Map<const Point>(body.displacement() + dim * model.dofs.nodes_of(e)[k]);
+      return Point(base::at_node<dim>(body.displacement(), model.dofs.nodes_of(e)[k]));
     };
     for (int q = 0; q < model.points.count(e); ++q) {
       errors.strain = std::max(errors.strain, (strain<dim>(model, e, q, mean_at) - exact).norm() / exact.norm());

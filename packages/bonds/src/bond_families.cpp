@@ -114,12 +114,14 @@ BondId BondFamilies<dim>::find(int first, int first_end, int second, int second_
 }
 
 template <int dim>
-void BondFamilies<dim>::set_broken(BondId b) {
-  const Bond<dim> bond = this->bond(b);
-  ends_[b] = static_cast<std::uint16_t>(ends_[b] | broken_bit);
-  damaged_[bond.first_element] = damaged_[bond.second_element] = 1;
-  lost_volume_[bond.first_point] += points_.weight(bond.second_point);
-  lost_volume_[bond.second_point] += points_.weight(bond.first_point);
+void BondFamilies<dim>::take(const BondChange& change) {
+  for (const BondId b : change.broken) {
+    const Bond<dim> bond = this->bond(b);
+    ends_[b] = static_cast<std::uint16_t>(ends_[b] | broken_bit);
+    damaged_[bond.first_element] = damaged_[bond.second_element] = 1;
+    lost_volume_[bond.first_point] += points_.weight(bond.second_point);
+    lost_volume_[bond.second_point] += points_.weight(bond.first_point);
+  }
 }
 
 template <int dim>
@@ -173,14 +175,13 @@ std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim
 }
 
 template <int dim>
-std::vector<BondId> BondFamilies<dim>::break_overstretched(const std::vector<Point<dim>>& displacements,
-                                                           double critical_stretch,
-                                                           const std::vector<morphing::ElementClass>& classes) {
-  std::vector<BondId> newly_broken;
+std::vector<BondId> BondFamilies<dim>::overstretched(const std::vector<Point<dim>>& displacements,
+                                                     double critical_stretch,
+                                                     const std::vector<morphing::ElementClass>& classes) const {
+  std::vector<BondId> found;
   for_each_overstretched(displacements, critical_stretch, classes,
-                         [&](const Bond<dim>& bond, double) { newly_broken.push_back(bond.id); });
-  for (const BondId b : newly_broken) set_broken(b);
-  return newly_broken;
+                         [&](const Bond<dim>& bond, double) { found.push_back(bond.id); });
+  return found;
 }
 
 template class BondFamilies<2>;

@@ -64,21 +64,36 @@ std::vector<double> shape_integrals(const std::vector<Point<dim>>& x) {
 template <int dim>
 std::vector<double> Loads<dim>::forces(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                        const DofMap<dim>& dofs, double load_factor) const {
+  return integrate(mesh, points, dofs, [=](const Ramp<Point<dim>>& load) { return load.at(load_factor); });
+}
+
+template <int dim>
+std::vector<double> Loads<dim>::rates(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                                      const DofMap<dim>& dofs) const {
+  return integrate(mesh, points, dofs, [](const Ramp<Point<dim>>& load) { return load.rate; });
+}
+
+/// Forces on the nodes of what value(load) makes of each load.
+template <int dim>
+template <class Value>
+std::vector<double> Loads<dim>::integrate(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                                          const DofMap<dim>& dofs, Value value) const {
   std::vector<double> forces(static_cast<std::size_t>(dofs.n_owned_nodes()) * dim, 0.);
   const auto add = [&](int node, const Point<dim>& force) {
     if (node >= dofs.n_owned_nodes()) return;
     for (int c = 0; c < dim; ++c) forces[node * dim + c] += force[c];
   };
   for (const auto& traction : tractions_) {
+    const Point<dim> per_area = value(traction.value);
     for (const auto& side : mesh.side_sets.at(traction.side_set)) {
       const auto integrals = shape_integrals<dim>(mesh::corner_points(mesh, side));
       const auto& corners = mesh::sides(mesh.types[side.element])[side.side];
       for (std::size_t k = 0; k < corners.size(); ++k) {
-        add(dofs.nodes_of(side.element)[corners[k]], integrals[k] * traction.value.at(load_factor));
+        add(dofs.nodes_of(side.element)[corners[k]], integrals[k] * per_area);
       }
     }
   }
-  const Point<dim> body = body_force_.at(load_factor);
+  const Point<dim> body = value(body_force_);
   if (body.isZero(0.)) return forces;
   for (int e = 0; e < mesh.n_elements(); ++e) {
     for (int q = 0; q < points.count(e); ++q) {

@@ -22,7 +22,8 @@ std::vector<double> own_costs(const Body<dim>& body) {
     std::size_t n_bonds = 0;
     for (const int p : model.bonds.pairs_of(e)) n_bonds += model.bonds.first_bond(p + 1) - model.bonds.first_bond(p);
     // The other half is the other element's.
-    costs[e] = cost<dim>(body.is_discontinuous(e), body.mesh().n_corners(e), 0.5 * static_cast<double>(n_bonds));
+    costs[e] = cost<dim>(body.topology().discontinuous()[e] != 0, body.mesh().n_corners(e),
+                         0.5 * static_cast<double>(n_bonds));
   }
   return costs;
 }

@@ -52,7 +52,7 @@ std::pair<std::string, std::string> first_difference(const std::string& one, con
 }
 
 template <int dim>
-void put_body(io::Checkpoint& checkpoint, const BodyState<dim>& state) {
+void put_body(io::Checkpoint& checkpoint, const SavedState<dim>& state) {
   const auto& counts = state.counts;
   checkpoint.numbers["body"] = {state.load_factor, state.force_scale, state.energies.dissipated,
                                 state.energies.external_work};
@@ -69,9 +69,9 @@ void put_body(io::Checkpoint& checkpoint, const BodyState<dim>& state) {
 }
 
 template <int dim>
-BodyState<dim> body_in(const std::vector<double>& numbers, const std::vector<GlobalId>& counts,
-                       const std::vector<double>& centroids, const std::vector<GlobalId>& flagged) {
-  BodyState<dim> state;
+SavedState<dim> body_in(const std::vector<double>& numbers, const std::vector<GlobalId>& counts,
+                        const std::vector<double>& centroids, const std::vector<GlobalId>& flagged) {
+  SavedState<dim> state;
   state.load_factor = numbers.at(0);
   state.force_scale = numbers.at(1);
   state.energies = {0., numbers.at(2), numbers.at(3)};
@@ -227,7 +227,7 @@ void Checkpoints<dim>::restore(Body<dim>& body) {
 }
 
 template <int dim>
-BodyState<dim> Checkpoints<dim>::body_state_in(const io::Checkpoint& checkpoint, const mesh::Mesh<dim>& mesh) const {
+SavedState<dim> Checkpoints<dim>::body_state_in(const io::Checkpoint& checkpoint, const mesh::Mesh<dim>& mesh) const {
   const bool is_root = comm_->getRank() == 0;
   const auto numbers = [&](const char* name) { return is_root ? checkpoint.numbers.at(name) : std::vector<double>(); };
   const auto integers = [&](const char* name) {
@@ -237,7 +237,7 @@ BodyState<dim> Checkpoints<dim>::body_state_in(const io::Checkpoint& checkpoint,
                             from_root(*comm_, numbers("flag_points")), integers("flagged_elements"));
   const auto broken = integers("broken_bonds");
   for (std::size_t i = 0; i < broken.size(); i += 3) state.broken.push_back({broken[i], broken[i + 1], broken[i + 2]});
-  state.displacement = fetch(*comm_, mesh.element_ids, BodyState<dim>::values_per_element, numbers("displacement"));
+  state.displacement = fetch(*comm_, mesh.element_ids, SavedState<dim>::values_per_element, numbers("displacement"));
   return state;
 }
 
@@ -251,7 +251,7 @@ bool Checkpoints<dim>::is_due(int increment) {
 
 template <int dim>
 void Checkpoints<dim>::accept(int increment, Body<dim>& body, const Results<dim>& results) {
-  body_ = body.state();
+  body_ = body.save();
   own_ids_ = own_ids(body.mesh());
   results_ = results.state();
   costs_then_ = costs_;
@@ -273,7 +273,7 @@ bool Checkpoints<dim>::rebalance_wanted(const Body<dim>& body) {
   if (imbalance <= largest_imbalance_ || total <= growth * before) return false;
   log_->info("partition        anew: one rank has {:.2f} times the mean of the work", imbalance);
   costs_ = element_costs(*comm_, body);
-  start_ = gather(body.state(), own_ids(body.mesh()));
+  start_ = gather(body.save(), own_ids(body.mesh()));
   has_start_ = true;
   return true;
 }
@@ -307,8 +307,8 @@ void Checkpoints<dim>::write() {
 
 /// A body on rank 0. Elements by global id, so that the ranks leave no trace.
 template <int dim>
-io::Checkpoint Checkpoints<dim>::gather(const BodyState<dim>& state, const std::vector<GlobalId>& elements) const {
-  constexpr auto stride = static_cast<std::size_t>(BodyState<dim>::values_per_element);
+io::Checkpoint Checkpoints<dim>::gather(const SavedState<dim>& state, const std::vector<GlobalId>& elements) const {
+  constexpr auto stride = static_cast<std::size_t>(SavedState<dim>::values_per_element);
   const auto broken = base::gather_on_root(*comm_, state.broken);
   const auto ids = base::gather_on_root(*comm_, elements);
   const auto values = base::gather_on_root(*comm_, state.displacement);

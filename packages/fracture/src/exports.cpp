@@ -89,7 +89,7 @@ struct PointRecord {
 template <int dim>
 std::vector<BondRecord> own_bonds(const Body<dim>& body) {
   const auto model = body.model();
-  const auto& u = body.displacement_at_points();
+  const auto& u = body.system().displacement_at_points();
   std::vector<BondRecord> records;
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     const auto [first, second] = model.bonds.pair(p);
@@ -115,7 +115,7 @@ std::vector<PointRecord<dim>> own_bonded_points(const Body<dim>& body) {
       const int point = model.points.first(e) + q;
       PointRecord<dim> record{model.points.global_id(e, q), {}, {}};
       Eigen::Map<Point<dim>>(record.position.data()) = model.points.position(point);
-      Eigen::Map<Point<dim>>(record.displacement.data()) = body.displacement_at_points()[point];
+      Eigen::Map<Point<dim>>(record.displacement.data()) = body.system().displacement_at_points()[point];
       records.push_back(record);
     }
   }

@@ -84,7 +84,9 @@ void check_groups(const ParameterList& list, const std::map<std::string, int>& l
   GroupChecks<dim>(list, lines, whole, mistakes).run();
 }
 
-template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<2>&, input::Mistakes&);
-template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<3>&, input::Mistakes&);
+template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<2>&,
+                           input::Mistakes&);
+template void check_groups(const ParameterList&, const std::map<std::string, int>&, const mesh::Mesh<3>&,
+                           input::Mistakes&);
 
 }  // namespace perimorph::fracture

@@ -15,9 +15,9 @@ namespace perimorph::fracture {
 
 namespace {
 
+using base::Point;
 using input::in_quotes;
 using input::Mistakes;
-using base::Point;
 
 constexpr double negligible = 1e-6;  // motion of the supports, relative to that of the part
 constexpr int most_listed = 10;      // parts in a message
@@ -122,7 +122,9 @@ class Checks {
   }
 
  private:
-  void add(const std::string& path, const std::string& what) { mistakes_.add(input::line_of(input_.lines, path), path, what); }
+  void add(const std::string& path, const std::string& what) {
+    mistakes_.add(input::line_of(input_.lines, path), path, what);
+  }
 
   // ---- probes ----
 

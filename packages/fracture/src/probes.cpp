@@ -18,7 +18,7 @@ template <int dim>
 base::Voigt<dim> interpolated_stress(const Body<dim>& body, const elements::Location& at) {
   const auto model = body.model();
   const auto stress =
-      operators::stress_at_points(model, at.element, body.displacement(), body.displacement_at_points());
+      operators::stress_at_points(model, at.element, body.displacement(), body.system().displacement_at_points());
   const auto n = static_cast<int>(stress.size());
   Eigen::MatrixXd shapes(n, n), values(n, base::n_voigt<dim>);
   for (int q = 0; q < n; ++q) {
@@ -34,7 +34,7 @@ Point<dim> interpolated_displacement(const Body<dim>& body, const elements::Loca
   Point<dim> sum = Point<dim>::Zero();
   for (int k = 0; k < body.mesh().n_corners(at.element); ++k) {
     const int node = model.dofs.nodes_of(at.element)[k];
-    sum += at.shape[k] * Eigen::Map<const Point<dim>>(body.displacement() + node * dim);
+    sum += at.shape[k] * base::at_node<dim>(body.displacement(), node);
   }
   return sum;
 }

@@ -45,7 +45,8 @@ std::vector<std::string> lines_of(const Teuchos::ParameterList& list) {
 constexpr const char* kind_names[] = {"FE", "MORPH", "PD", "DGFE"};
 template <int dim>
 int kind(const Body<dim>& body, int element) {
-  return body.is_discontinuous(element) ? 3 : static_cast<int>(body.classes()[element]);
+  const auto& topology = body.topology();
+  return topology.discontinuous()[element] != 0 ? 3 : static_cast<int>(topology.classes()[element]);
 }
 
 template <int dim>
@@ -516,7 +517,7 @@ void Results<dim>::write_fields(const Body<dim>& body, const std::vector<double>
 
   io::ExodusStep step{body.load_factor(), global_values, {}, {}};
   for (int c = 0; c < dim; ++c) step.nodal.push_back(nodal_in_file_order(body, c));
-  const auto fields = operators::element_fields(model, body.displacement(), body.displacement_at_points());
+  const auto fields = operators::element_fields(model, body.displacement(), body.system().displacement_at_points());
   std::vector<std::vector<double>> own(4 + stress_names<dim>().size());
   for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
     double alpha = 0., damage = 0.;
@@ -539,13 +540,13 @@ void Results<dim>::write_fields(const Body<dim>& body, const std::vector<double>
 /// A component of the displacement: of all nodes on rank 0, or of a spread file's.
 template <int dim>
 std::vector<double> Results<dim>::nodal_in_file_order(const Body<dim>& body, int component) const {
-  const double* u = body.displacement() + component;
+  const auto u = body.displacement();
   std::vector<double> own;
   if (is_spread_) {
-    for (const int n : spread_nodes_) own.push_back(u[n * dim]);
+    for (const int n : spread_nodes_) own.push_back(u[n * dim + component]);
     return own;
   }
-  for (int n = 0; n < body.model().dofs.n_owned_nodes(); ++n) own.push_back(u[n * dim]);
+  for (int n = 0; n < body.model().dofs.n_owned_nodes(); ++n) own.push_back(u[n * dim + component]);
   return base::gather_on_root(*comm_, own);
 }
 

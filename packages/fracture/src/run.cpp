@@ -11,8 +11,8 @@
 #include "perimorph/fracture/advice.hpp"
 #include "perimorph/fracture/automatic_seeds.hpp"
 #include "perimorph/fracture/calibration.hpp"
-#include "perimorph/input/resolved.hpp"
 #include "perimorph/fracture/run_observer.hpp"
+#include "perimorph/input/resolved.hpp"
 #include "perimorph/mesh/mesh_report.hpp"
 #include "temporary_folder.hpp"
 
@@ -181,13 +181,15 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
     const bool is_counted_here = model.bonds.pair(p).first < mesh.n_owned_elements;
     if (is_counted_here) n_bonds += static_cast<GlobalId>(model.bonds.first_bond(p + 1) - model.bonds.first_bond(p));
   }
-  for (int e = 0; e < mesh.n_owned_elements; ++e) elements_of_class[static_cast<int>(body.classes()[e])] += 1.;
+  for (int e = 0; e < mesh.n_owned_elements; ++e)
+    elements_of_class[static_cast<int>(body.topology().classes()[e])] += 1.;
   std::vector<double> sums(elements_of_class.begin(), elements_of_class.end());
   sums.push_back(base::peak_memory());
   double n_points = 0.;  // with bonds; those on several ranks count on each, as their memory does
   for (int e = 0; e < mesh.n_elements(); ++e) n_points += model.bonds.pairs_of(e).empty() ? 0 : model.points.count(e);
-  sums.insert(sums.end(), {static_cast<double>(model.bonds.n_bonds()), n_points,
-                           static_cast<double>(model.bonds.bytes()), static_cast<double>(body.bytes_of_operator())});
+  sums.insert(sums.end(),
+              {static_cast<double>(model.bonds.n_bonds()), n_points, static_cast<double>(model.bonds.bytes()),
+               static_cast<double>(body.system().bytes_of_operator())});
   base::sum(*comm, sums);
   n_bonds = base::sum(*comm, n_bonds);
   log->info("models           {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", sums[0], sums[1], sums[2],

@@ -25,7 +25,9 @@ int count_bits(unsigned mask) { return __builtin_popcount(mask); }
 
 template <int dim>
 BondForces<dim>::BondForces(const CoupledModel<dim>& model)
-    : model_(model), first_packet_(model.mesh.n_elements(), -1) {
+    : LinearTerm<dim>(static_cast<std::size_t>(model.dofs.n_owned_nodes()) * dim),
+      model_(model),
+      first_packet_(model.mesh.n_elements(), -1) {
   make_packets();
   make_blocks();
 }
@@ -120,10 +122,10 @@ std::size_t BondForces<dim>::shapes_of(const elements::ReferenceElement<dim>& re
 }
 
 template <int dim>
-void BondForces<dim>::add(const double* u, double* force) const {
-  gather(u);
+void BondForces<dim>::add_tangent_product(base::ConstField x, base::Field force) const {
+  gather(x.getRawPtr());
   model_.bonds.computes_stiffness() ? pull<true>() : pull<false>();
-  spread(force);
+  spread(force.getRawPtr());
 }
 
 template <int dim>
@@ -224,8 +226,8 @@ void BondForces<dim>::spread(double* force) const {
 }
 
 template <int dim>
-void BondForces<dim>::subtract(const std::vector<std::size_t>& broken) {
-  for (const auto bond : broken) {
+void BondForces<dim>::take(const bonds::BondChange& change) {
+  for (const auto bond : change.broken) {
     const auto [first, second] = model_.bonds.pair(model_.bonds.pair_of(bond));
     const int i = model_.bonds.first_end(bond), j = model_.bonds.second_end(bond);
     const int a = first_packet_[first] + i / n_lanes, b = first_packet_[second] + j / n_lanes;

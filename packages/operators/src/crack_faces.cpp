@@ -71,11 +71,11 @@ bool are_joined(const bonds::BondFamilies<dim>& bonds, int e, int f) {
 
 /// Displacement of an element's corner at a place.
 template <int dim>
-Point<dim> displacement_at(const CoupledModel<dim>& model, const double* u, int element, const Point<dim>& place) {
+Point<dim> displacement_at(const CoupledModel<dim>& model, base::ConstField u, int element, const Point<dim>& place) {
   const int* reference = model.mesh.corners_of(element);
   int corner = 0;
   while (model.mesh.coordinates[reference[corner]] != place) ++corner;
-  return Eigen::Map<const Point<dim>>(u + model.dofs.nodes_of(element)[corner] * dim);
+  return base::at_node<dim>(u, model.dofs.nodes_of(element)[corner]);
 }
 
 }  // namespace
@@ -96,7 +96,8 @@ std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>& mesh, const std::ve
 }
 
 template <int dim>
-Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing, const double* u) {
+Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing,
+                             base::ConstField u) {
   Overlap<dim> largest;
   for (const auto& [first, second] : facing) {
     if (are_joined(model.bonds, first.element, second.element)) continue;
@@ -113,7 +114,7 @@ Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<F
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                  \
   template std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>&, const std::vector<char>&); \
-  template Overlap<dim> largest_overlap(const CoupledModel<dim>&, const std::vector<FacingSides>&, const double*);
+  template Overlap<dim> largest_overlap(const CoupledModel<dim>&, const std::vector<FacingSides>&, base::ConstField);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

@@ -13,12 +13,12 @@ namespace {
 
 /// Calls visit(q, strain, stress, w) for each point of an element: those of its continuous part, E(x) eps.
 template <int dim, class Visit>
-void visit_local_part(const CoupledModel<dim>& model, int e, const double* u, Visit visit) {
+void visit_local_part(const CoupledModel<dim>& model, int e, base::ConstField u, Visit visit) {
   elements::with_corners<dim>(model.mesh.n_corners(e), [&](auto corners) {
     constexpr int n = decltype(corners)::value;
     Eigen::Matrix<double, dim * n, 1> d;
     for (int k = 0; k < n; ++k) {
-      d.template segment<dim>(k * dim) = Eigen::Map<const Point<dim>>(u + model.dofs.nodes_of(e)[k] * dim);
+      d.template segment<dim>(k * dim) = base::at_node<dim>(u, model.dofs.nodes_of(e)[k]);
     }
     for (int q = 0; q < model.points.count(e); ++q) {
       const base::Voigt<dim> strain = elements::strain_matrix<dim, n>(model.points.gradients(e, q)) * d;
@@ -45,7 +45,7 @@ void visit_bonds(const CoupledModel<dim>& model, int p, const std::vector<Point<
 }
 
 template <int dim>
-void add_local_part(const CoupledModel<dim>& model, const double* u, ElementFields<dim>& fields) {
+void add_local_part(const CoupledModel<dim>& model, base::ConstField u, ElementFields<dim>& fields) {
   for (int e = 0; e < model.mesh.n_owned_elements; ++e) {
     visit_local_part(model, e, u, [&](int, const base::Voigt<dim>& strain, const base::Voigt<dim>& stress, double w) {
       fields.energy[e] += 0.5 * w * strain.dot(stress);
@@ -72,7 +72,7 @@ void add_bonds_part(const CoupledModel<dim>& model, const std::vector<Point<dim>
 }  // namespace
 
 template <int dim>
-std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, const double* u) {
+std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, base::ConstField u) {
   std::vector<Point<dim>> at_points(model.points.size(), Point<dim>::Zero());
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (model.bonds.pairs_of(e).empty()) continue;
@@ -81,7 +81,7 @@ std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, 
       const auto& shape = model.points.shape(e, q);
       Point<dim>& value = at_points[model.points.first(e) + q];
       for (int k = 0; k < model.mesh.n_corners(e); ++k) {
-        value += shape[k] * Eigen::Map<const Point<dim>>(u + nodes[k] * dim);
+        value += shape[k] * base::at_node<dim>(u, nodes[k]);
       }
     }
   }
@@ -89,7 +89,7 @@ std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, 
 }
 
 template <int dim>
-ElementFields<dim> element_fields(const CoupledModel<dim>& model, const double* u,
+ElementFields<dim> element_fields(const CoupledModel<dim>& model, base::ConstField u,
                                   const std::vector<Point<dim>>& at_points) {
   const auto n = static_cast<std::size_t>(model.mesh.n_owned_elements);
   ElementFields<dim> fields{std::vector<double>(n, 0.), std::vector<base::Voigt<dim>>(n, base::Voigt<dim>::Zero())};
@@ -106,7 +106,7 @@ ElementFields<dim> element_fields(const CoupledModel<dim>& model, const double* 
 }
 
 template <int dim>
-std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, int element, const double* u,
+std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, int element, base::ConstField u,
                                                const std::vector<Point<dim>>& at_points) {
   const int first = model.points.first(element), end = model.points.first(element + 1);
   std::vector<base::Voigt<dim>> stress(end - first, base::Voigt<dim>::Zero());
@@ -123,7 +123,7 @@ std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, i
 }
 
 template <int dim>
-double largest_principal_strain(const CoupledModel<dim>& model, int element, const double* u) {
+double largest_principal_strain(const CoupledModel<dim>& model, int element, base::ConstField u) {
   double largest = -std::numeric_limits<double>::infinity();
   visit_local_part(model, element, u, [&](int, const base::Voigt<dim>& strain, const base::Voigt<dim>&, double) {
     Eigen::Matrix<double, dim, dim> tensor = strain.template head<dim>().asDiagonal();
@@ -137,18 +137,18 @@ double largest_principal_strain(const CoupledModel<dim>& model, int element, con
   return largest;
 }
 
-template double largest_principal_strain<2>(const CoupledModel<2>&, int, const double*);
-template double largest_principal_strain<3>(const CoupledModel<3>&, int, const double*);
+template double largest_principal_strain<2>(const CoupledModel<2>&, int, base::ConstField);
+template double largest_principal_strain<3>(const CoupledModel<3>&, int, base::ConstField);
 
-template ElementFields<2> element_fields<2>(const CoupledModel<2>&, const double*, const std::vector<Point<2>>&);
-template ElementFields<3> element_fields<3>(const CoupledModel<3>&, const double*, const std::vector<Point<3>>&);
+template ElementFields<2> element_fields<2>(const CoupledModel<2>&, base::ConstField, const std::vector<Point<2>>&);
+template ElementFields<3> element_fields<3>(const CoupledModel<3>&, base::ConstField, const std::vector<Point<3>>&);
 
-template std::vector<base::Voigt<2>> stress_at_points<2>(const CoupledModel<2>&, int, const double*,
+template std::vector<base::Voigt<2>> stress_at_points<2>(const CoupledModel<2>&, int, base::ConstField,
                                                          const std::vector<Point<2>>&);
-template std::vector<base::Voigt<3>> stress_at_points<3>(const CoupledModel<3>&, int, const double*,
+template std::vector<base::Voigt<3>> stress_at_points<3>(const CoupledModel<3>&, int, base::ConstField,
                                                          const std::vector<Point<3>>&);
 
-template std::vector<Point<2>> displacements_at_points<2>(const CoupledModel<2>&, const double*);
-template std::vector<Point<3>> displacements_at_points<3>(const CoupledModel<3>&, const double*);
+template std::vector<Point<2>> displacements_at_points<2>(const CoupledModel<2>&, base::ConstField);
+template std::vector<Point<3>> displacements_at_points<3>(const CoupledModel<3>&, base::ConstField);
 
 }  // namespace perimorph::operators

@@ -5,6 +5,7 @@
 
 #include "lanes.hpp"
 #include "perimorph/elements/strain.hpp"
+#include "perimorph/operators/stiffness_matrix.hpp"
 
 namespace perimorph::operators {
 
@@ -52,7 +53,8 @@ void add_divergence(const double* gradients, const std::array<Lanes, base::n_voi
 }  // namespace
 
 template <int dim>
-LocalForces<dim>::LocalForces(const CoupledModel<dim>& model) : e0_(model.elasticity.e0()) {
+LocalForces<dim>::LocalForces(const CoupledModel<dim>& model)
+    : LinearTerm<dim>(static_cast<std::size_t>(model.dofs.n_owned_nodes()) * dim), model_(model) {
   std::vector<std::size_t> n_elements;  // in each group
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (!model.bonds.is_active(e) || model.elasticity.is_zero(e)) continue;
@@ -93,9 +95,11 @@ typename LocalForces<dim>::Group& LocalForces<dim>::group(int n_corners, int n_p
 }
 
 template <int dim>
-void LocalForces<dim>::add(const double* u, double* force) const {
+void LocalForces<dim>::add_tangent_product(base::ConstField x, base::Field force) const {
+  const double* u = x.getRawPtr();
+  double* forces = force.getRawPtr();
   for (const auto& g : groups_) {
-    elements::with_corners<dim>(g.n_corners, [&](auto corners) { add<decltype(corners)::value>(g, u, force); });
+    elements::with_corners<dim>(g.n_corners, [&](auto corners) { add<decltype(corners)::value>(g, u, forces); });
   }
 }
 
@@ -103,6 +107,7 @@ template <int dim>
 template <int n>
 void LocalForces<dim>::add(const Group& g, const double* u, double* force) const {
   constexpr int n_voigt = base::n_voigt<dim>;
+  const base::Stiffness<dim>& e0 = model_.elasticity.e0();
   const double* gradients = g.gradients.data();
   const double* moduli = g.stiffness.data();
   for (std::size_t first = 0; first < g.nodes.size(); first += n * n_lanes) {
@@ -127,7 +132,7 @@ void LocalForces<dim>::add(const Group& g, const double* u, double* force) const
         }
       } else {
         for (int v = 0; v < n_voigt; ++v) {
-          for (int w = 0; w < n_voigt; ++w) stresses[v] += e0_(v, w) * strains[w];
+          for (int w = 0; w < n_voigt; ++w) stresses[v] += e0(v, w) * strains[w];
         }
       }
       add_divergence<dim, n>(gradients, stresses, forces);
@@ -137,6 +142,25 @@ void LocalForces<dim>::add(const Group& g, const double* u, double* force) const
         for (int c = 0; c < dim; ++c) force[nodes[k * n_lanes + lane] * dim + c] += forces[k][c][lane];
       }
     }
+  }
+}
+
+/// K_e = Sum_q w B^T E(x) B, element by element.
+template <int dim>
+void LocalForces<dim>::add_to(StiffnessMatrix<dim>& matrix) const {
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+    if (!model_.bonds.is_active(e) || model_.elasticity.is_zero(e)) continue;
+    elements::with_corners<dim>(model_.mesh.n_corners(e), [&](auto corners) {
+      constexpr int n = decltype(corners)::value;
+      Eigen::Matrix<double, dim * n, dim* n> k = Eigen::Matrix<double, dim * n, dim * n>::Zero();
+      for (int q = 0; q < model_.points.count(e); ++q) {
+        const auto b = elements::strain_matrix<dim, n>(model_.points.gradients(e, q));
+        const base::Stiffness<dim> weighted =
+            model_.points.weight(model_.points.first(e) + q) * model_.elasticity.at(e, q);
+        k.noalias() += b.transpose() * (weighted * b);
+      }
+      matrix.add_element(e, k);
+    });
   }
 }
 

@@ -8,7 +8,7 @@
 namespace perimorph::operators {
 
 template <int dim>
-PointBasis<dim>::PointBasis(const CoupledModel<dim>& model, const Supports<dim>& supports,
+PointBasis<dim>::PointBasis(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
                             const std::vector<char>& discontinuous)
     : model_(model), holds_(discontinuous) {
   const auto& dofs = model.dofs;
@@ -22,7 +22,7 @@ PointBasis<dim>::PointBasis(const CoupledModel<dim>& model, const Supports<dim>&
     const int* nodes = dofs.nodes_of(e);
     const bool is_one_ranks = std::all_of(nodes, nodes + model.mesh.n_corners(e),
                                           [&](int node) { return rank_of(node) == rank_of(nodes[0]); });
-    holds_[e] = is_one_ranks && is_suitable(e, supports);
+    holds_[e] = is_one_ranks && is_suitable(e, space);
     if (!holds_[e] || nodes[0] >= dofs.n_owned_nodes()) continue;
 
     const auto& reference = model.points.reference(e);
@@ -37,13 +37,15 @@ PointBasis<dim>::PointBasis(const CoupledModel<dim>& model, const Supports<dim>&
 }
 
 template <int dim>
-bool PointBasis<dim>::is_suitable(int element, const Supports<dim>& supports) const {
+bool PointBasis<dim>::is_suitable(int element, const discretization::Space<dim>& space) const {
   if (!model_.elasticity.is_zero(element) || model_.points.count(element) != model_.mesh.n_corners(element))
     return false;
   const int* nodes = model_.dofs.nodes_of(element);
   return std::none_of(nodes, nodes + model_.mesh.n_corners(element), [&](int node) {
-    const auto first = supports.fixed.begin() + static_cast<std::ptrdiff_t>(node) * dim;
-    return std::any_of(first, first + dim, [](char fixed) { return fixed != 0; });
+    for (int c = 0; c < dim; ++c) {
+      if (space.is_prescribed(node * dim + c)) return true;
+    }
+    return false;
   });
 }
 

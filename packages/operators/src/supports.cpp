@@ -2,15 +2,14 @@
 
 #include <cmath>
 
+#include "perimorph/operators/stiffness_matrix.hpp"
+
 namespace perimorph::operators {
 
 template <int dim>
-Supports<dim>::Supports(const CoupledModel<dim>& model, const discretization::Dirichlet<dim>& dirichlet,
+Supports<dim>::Supports(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
                         const std::vector<char>& discontinuous)
-    : diagonal(static_cast<std::size_t>(model.dofs.n_owned_nodes()) * dim, 0.) {
-  for (int n = 0; n < model.dofs.n_nodes(); ++n) {
-    for (int c = 0; c < dim; ++c) fixed.push_back(dirichlet.prescribes(model.dofs.reference_node(n), c));
-  }
+    : constraints(space.n_owned(), 0.), anchors(space.n_owned(), 0.) {
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     double volume = 0.;
     for (int p = model.points.first(e); p < model.points.first(e + 1); ++p) volume += model.points.weight(p);
@@ -19,17 +18,41 @@ Supports<dim>::Supports(const CoupledModel<dim>& model, const discretization::Di
       const int node = model.dofs.nodes_of(e)[k];
       if (node >= model.dofs.n_owned_nodes()) continue;
       for (int dof = node * dim; dof < (node + 1) * dim; ++dof) {
-        if (fixed[dof]) {
-          diagonal[dof] = std::max(diagonal[dof], stiffness);
+        if (space.is_prescribed(dof)) {
+          constraints[dof] = std::max(constraints[dof], stiffness);
         } else if (discontinuous[e]) {
-          diagonal[dof] = anchor * stiffness;
+          anchors[dof] = anchor * stiffness;
         }
       }
     }
   }
 }
 
+template <int dim>
+Anchors<dim>::Anchors(const std::vector<double>& stiffness) {
+  for (std::size_t dof = 0; dof < stiffness.size(); ++dof) {
+    if (stiffness[dof] != 0.) springs_.push_back({static_cast<int>(dof), stiffness[dof]});
+  }
+}
+
+template <int dim>
+void Anchors<dim>::add_tangent_product(base::ConstField x, base::Field force) const {
+  for (const auto& [dof, stiffness] : springs_) force[dof] += stiffness * x[dof];
+}
+
+template <int dim>
+void Anchors<dim>::add_to(StiffnessMatrix<dim>& matrix) const {
+  for (const auto& [dof, stiffness] : springs_) matrix.add_diagonal(dof, stiffness);
+}
+
+template <int dim>
+void Anchors<dim>::scale(double factor) {
+  for (auto& spring : springs_) spring.stiffness *= factor;
+}
+
 template struct Supports<2>;
 template struct Supports<3>;
+template class Anchors<2>;
+template class Anchors<3>;
 
 }  // namespace perimorph::operators

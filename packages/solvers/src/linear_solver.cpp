@@ -63,12 +63,12 @@ void LinearSolver::note_change(const std::vector<int>& nodes) {
   changed_nodes_.insert(changed_nodes_.end(), nodes.begin(), nodes.end());
 }
 
-int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solution, double target) {
+LinearSolver::Outcome LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solution, double target) {
   Teuchos::Array<double> norm(1);
   right_hand_side.norm2(norm());
   solution.putScalar(0.);
-  if (norm[0] <= target) return 0;
-  if (!std::isfinite(norm[0])) throw base::ComputationError("the residual is not a finite number");
+  if (norm[0] <= target) return {true, 0, ""};
+  if (!std::isfinite(norm[0])) return {false, 0, "the residual is not a finite number"};
 
   const double relative_tolerance = target / norm[0];
   Outcome outcome = attempt(right_hand_side, solution, relative_tolerance);
@@ -79,14 +79,15 @@ int LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solutio
     outcome = attempt(right_hand_side, solution, relative_tolerance);
   }
   if (!outcome.converged) {
-    throw base::ComputationError(fmt::format(
+    outcome.trouble = fmt::format(
         "conjugate gradients did not reduce the residual by {:.1e} within {} iterations, with a fresh, "
         "robust preconditioner and {}{}{}",
         relative_tolerance, outcome.iterations, is_factorized() ? "a factorization" : "one of a single level",
-        outcome.trouble.empty() ? "" : ": ", outcome.trouble));
+        outcome.trouble.empty() ? "" : ": ", outcome.trouble);
+    return outcome;
   }
   judge(outcome.iterations, relative_tolerance);
-  return outcome.iterations;
+  return outcome;
 }
 
 LinearSolver::Outcome LinearSolver::attempt(const MultiVector& right_hand_side, MultiVector& solution,

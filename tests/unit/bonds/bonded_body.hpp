@@ -41,6 +41,14 @@ struct BondedBody {
 
   void grow(const std::vector<Zone<2>>& zones) { bonds.extend(alpha.add(zones)); }
 
+  /// Returns the bonds that it breaks.
+  std::vector<std::size_t> break_overstretched(const std::vector<Point2>& displacements, double critical_stretch,
+                                               const std::vector<morphing::ElementClass>& classes) {
+    const auto broken = bonds.overstretched(displacements, critical_stretch, classes);
+    bonds.take({broken});
+    return broken;
+  }
+
   std::pair<int, int> ends(int pair, std::size_t b) const {
     const auto [first, second] = bonds.pair(pair);
     return {points.first(first) + bonds.first_end(b), points.first(second) + bonds.second_end(b)};

@@ -66,7 +66,7 @@ class OpenSides : public testing::Test {
       const auto [i, j] = body.ends(p, b);
       const Point2 &x = body.points.position(i), &y = body.points.position(j);
       if ((x[1] < 3.) == (y[1] < 3.) || std::max(x[0], y[0]) > up_to_x || body.bonds.broken(b)) return;
-      body.bonds.set_broken(b);
+      body.bonds.take({{b}});
     });
   }
 

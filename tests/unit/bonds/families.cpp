@@ -105,7 +105,7 @@ TEST_P(BondFamilies, KeepTheirBrokenBondsWhenTheyGrow) {
   std::set<std::pair<GlobalId, GlobalId>> broken;
   body.for_each_bond([&](int p, std::size_t b) {
     if (b % 7 != 0 || body.bonds.pair(p).first == body.bonds.pair(p).second) return;
-    body.bonds.set_broken(b);
+    body.bonds.take({{b}});
     broken.insert(body.global_ends(p, b));
   });
 

@@ -138,7 +138,7 @@ TEST_P(VisibilityIn3d, TheBrokenSurfaceIsBothFacesOfACrack) {
     for (auto b = body.bonds.first_bond(p); b < body.bonds.first_bond(p + 1); ++b) {
       const auto place = passage(body.points.position(body.points.first(first) + body.bonds.first_end(b)),
                                  body.points.position(body.points.first(second) + body.bonds.second_end(b)), 3.);
-      if (place && (*place)[2] < 2.) body.bonds.set_broken(b);
+      if (place && (*place)[2] < 2.) body.bonds.take({{b}});
     }
   }
 

@@ -62,7 +62,7 @@ TEST_P(BoundaryConditions, PrescribedValuesGrowWithTheLoadOnTheNodesOfTheirSetOn
     const double x = mesh.coordinates[n][0];
     EXPECT_EQ(dirichlet.prescribes(n, 0), x == 3.);
     EXPECT_EQ(dirichlet.prescribes(n, 1), x == 0.);
-    EXPECT_DOUBLE_EQ(dirichlet.value(n, 0, 4.), x == 3. ? 0.9 : 0.);
+    EXPECT_DOUBLE_EQ(dirichlet.ramp(n, 0).at(4.), x == 3. ? 0.9 : 0.);
   }
 }
 

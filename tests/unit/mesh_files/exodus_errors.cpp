@@ -93,7 +93,8 @@ TEST(ExodusErrors, OtherElements) {
   EXPECT_THAT(error_of(exodus_text(mesh::grid<2>({2, 1}), {EX_CLOBBER, 0, {"WEDGE", "WEDGE"}})),
               HasSubstr("block \"west\" has elements of type \"WEDGE\" with 4 nodes; allowed are TRI3, QUAD4, TETRA4, "
                         "PYRAMID5, WEDGE6 and HEX8"));
-  EXPECT_THAT(error_of(exodus_text(mesh::grid<2>({2, 1}), {EX_CLOBBER, 0, {"QUAD9", "QUAD9"}})), HasSubstr("\"QUAD9\""));
+  EXPECT_THAT(error_of(exodus_text(mesh::grid<2>({2, 1}), {EX_CLOBBER, 0, {"QUAD9", "QUAD9"}})),
+              HasSubstr("\"QUAD9\""));
 }
 
 TEST(ExodusErrors, AMeshOfAnotherDimension) {

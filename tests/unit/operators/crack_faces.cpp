@@ -19,7 +19,7 @@ CoupledBody plate(bool discontinuous) {
 
 operators::Overlap<2> largest(const CoupledBody& body, const std::vector<double>& u) {
   const auto own =
-      operators::largest_overlap(body.model(), operators::facing_sides(body.mesh, body.discontinuous), u.data());
+      operators::largest_overlap(body.model(), operators::facing_sides(body.mesh, body.discontinuous), base::field(u));
   const auto all = base::gather_on_all<double>(*body.comm, {own.depth, own.place[0], own.place[1]});
   operators::Overlap<2> found;
   for (std::size_t i = 0; i < all.size(); i += 3) {
@@ -76,7 +76,7 @@ TEST(CrackFaces, AreThereOnceAllBondsBetweenTwoElementsAreBroken) {
     const Point2 a = mesh::centroid(body.mesh, first), b = mesh::centroid(body.mesh, second);
     const bool is_broken = std::abs(a[1] - 3.5) < 0.1 && std::abs(b[1] - 3.5) < 0.1 && (a[0] < 5.) != (b[0] < 5.);
     for (auto bond = body.bonds.first_bond(p); is_broken && bond < body.bonds.first_bond(p + 1); ++bond) {
-      body.bonds.set_broken(bond);
+      body.topology.take({{bond}});
     }
   }
   const auto overlap = largest(body, closed);

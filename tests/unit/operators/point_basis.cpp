@@ -24,9 +24,8 @@ Setup held(bool triangles) {
 class PointBasis : public ::testing::TestWithParam<bool> {
  protected:
   CoupledBody body{held(GetParam())};
-  Teuchos::RCP<const operators::PointBasis<2>> basis =
-      Teuchos::rcp(new operators::PointBasis<2>(body.model(), body.supports(), body.discontinuous));
-  operators::CoupledStiffness<2> by_points{body.model(), body.supports(), operators::all_bonds, basis};
+  Teuchos::RCP<const operators::PointBasis<2>> basis = body.point_basis();
+  std::unique_ptr<operators::StiffnessMatrix<2>> by_points = body.matrix_of(operators::all_bonds, basis);
 
   Vector wave(double frequency) const {
     Vector x(body.dofs->owned_dofs());
@@ -50,7 +49,7 @@ class PointBasis : public ::testing::TestWithParam<bool> {
     basis->apply(x, on_nodes);
     body.stiffness->matrix()->apply(on_nodes, forces);
     basis->apply(forces, expected, Teuchos::TRANS);
-    by_points.matrix()->apply(x, actual);
+    by_points->matrix()->apply(x, actual);
     actual.update(-1., expected, 1.);
     EXPECT_LT(actual.norm2(), 1e-7 * expected.norm2());
   }
@@ -59,21 +58,21 @@ class PointBasis : public ::testing::TestWithParam<bool> {
 TEST_P(PointBasis, GivesTheSameOperatorWithFewerEntries) {
   EXPECT_GT(n_held(), 40);
   expect_the_same_operator();
-  EXPECT_LT(by_points.matrix()->getGlobalNumEntries(), 0.85 * body.stiffness->matrix()->getGlobalNumEntries());
+  EXPECT_LT(by_points->matrix()->getGlobalNumEntries(), 0.85 * body.stiffness->matrix()->getGlobalNumEntries());
 }
 
 TEST_P(PointBasis, GivesTheSameOperatorAfterBondsBreak) {
   const auto broken = body.break_each(3);
-  body.stiffness->subtract(broken);
-  by_points.subtract(broken);
+  body.stiffness->take({broken});
+  by_points->take({broken});
   expect_the_same_operator();
 }
 
 TEST_P(PointBasis, NamesAllNodesWhoseRowsBrokenBondsChange) {
-  const CoupledBody::Matrix before(*by_points.matrix(), Teuchos::Copy);
-  const auto result = by_points.subtract(body.break_each(71));
+  const CoupledBody::Matrix before(*by_points->matrix(), Teuchos::Copy);
+  const auto result = by_points->take({body.break_each(71)});
   const std::set<int> named(result.begin(), result.end());
-  const auto changed = CoupledBody::nodes_that_differ(before, *by_points.matrix());
+  const auto changed = CoupledBody::nodes_that_differ(before, *by_points->matrix());
   EXPECT_LT(named.size(), 0.7 * body.dofs->n_owned_nodes());
   EXPECT_TRUE(std::includes(named.begin(), named.end(), changed.begin(), changed.end()));
   EXPECT_GT(base::sum(*body.comm, static_cast<base::GlobalId>(changed.size())), 0);

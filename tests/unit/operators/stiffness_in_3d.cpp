@@ -7,8 +7,9 @@
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 
-#include "perimorph/operators/coupled_stiffness.hpp"
-#include "perimorph/operators/matrix_free_stiffness.hpp"
+#include "perimorph/operators/bond_forces.hpp"
+#include "perimorph/operators/local_forces.hpp"
+#include "perimorph/operators/stiffness_matrix.hpp"
 #include "support/meshes.hpp"
 
 namespace perimorph::tests {
@@ -38,7 +39,12 @@ struct Block {
                       continuous);
   }
   operators::CoupledModel<3> coupled() const { return {mesh, points, bonds, alpha, elasticity, dofs}; }
-  operators::Supports<3> supports() const { return {coupled(), dirichlet, continuous}; }
+  discretization::Space<3> space{dofs, dirichlet};
+  operators::ForceTerms<3> terms() const {
+    return {Teuchos::rcp(new operators::LocalForces<3>(coupled())),
+            Teuchos::rcp(new operators::BondForces<3>(coupled()))};
+  }
+  operators::StiffnessMatrix<3> matrix() const { return {coupled(), space, terms(), {}}; }
 };
 
 Eigen::MatrixXd dense(const Tpetra::CrsMatrix<double>& matrix) {
@@ -55,7 +61,7 @@ Eigen::MatrixXd dense(const Tpetra::CrsMatrix<double>& matrix) {
 TEST(BlockIn3d, IsSymmetricAndPositiveWithSixRigidModesAtZeroEnergy) {
   const Block body;
   ASSERT_GT(body.bonds.n_bonds(), 9000u);
-  const operators::CoupledStiffness<3> stiffness(body.coupled(), body.supports());
+  const auto stiffness = body.matrix();
   const Eigen::MatrixXd k = dense(*stiffness.matrix());
   const double largest = k.cwiseAbs().maxCoeff();
   EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 1e-13 * largest);
@@ -69,15 +75,15 @@ class StiffnessIn3d : public ::testing::TestWithParam<bonds::StiffnessStorage> {
 
 TEST_P(StiffnessIn3d, IsTheSameWithoutAMatrix) {
   const Block body(GetParam());
-  const operators::CoupledStiffness<3> stiffness(body.coupled(), body.supports());
-  const operators::MatrixFreeStiffness<3> matrix_free(body.coupled(), body.supports());
-  Eigen::VectorXd u(3 * body.dofs.n_nodes());
-  for (int i = 0; i < u.size(); ++i) u[i] = std::sin(1.7 * i);
+  const auto stiffness = body.matrix();
+  std::vector<double> u(3 * body.dofs.n_nodes()), force(u.size(), 0.);
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::sin(1.7 * static_cast<double>(i));
 
-  const auto force = matrix_free.internal_force(u.data());
+  for (const auto& term : body.terms()) term->add_force(base::field(u), base::field(force));
 
-  const Eigen::VectorXd expected = dense(*stiffness.matrix()) * u;
-  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(force.data(), u.size()) - expected).norm(), 1e-13 * expected.norm());
+  const auto n = static_cast<Eigen::Index>(u.size());
+  const Eigen::VectorXd expected = dense(*stiffness.matrix()) * Eigen::Map<const Eigen::VectorXd>(u.data(), n);
+  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(force.data(), n) - expected).norm(), 1e-13 * expected.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(Bonds, StiffnessIn3d,

@@ -141,11 +141,10 @@ TEST_P(MovedMultigrid, IsSymmetricAndReducesErrorsOfTheMatrixThatItHasMovedTo) {
   const auto old_matrix = before.stiffness->matrix();
   solvers::Multigrid multigrid(old_matrix, solvers::rigid_body_modes<2>(*old_matrix, coordinates), {},
                                solvers::Multigrid::Cycle::fast);
-  std::unique_ptr<operators::CoupledStiffness<2>> by_points;
+  std::unique_ptr<operators::StiffnessMatrix<2>> by_points;
   if (is_by_points) {
-    basis = Teuchos::rcp(new operators::PointBasis<2>(body.model(), body.supports(), body.discontinuous));
-    by_points =
-        std::make_unique<operators::CoupledStiffness<2>>(body.model(), body.supports(), operators::all_bonds, basis);
+    basis = body.point_basis();
+    by_points = body.matrix_of(operators::all_bonds, basis);
     matrix = by_points->matrix();
   }
 

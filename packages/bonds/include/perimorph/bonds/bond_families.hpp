@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "perimorph/bonds/bond.hpp"
+#include "perimorph/bonds/bond_change.hpp"
 #include "perimorph/bonds/visibility.hpp"
 #include "perimorph/materials/micromodulus.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
@@ -62,7 +63,6 @@ class BondFamilies {
   bool computes_stiffness() const { return kept_ == StiffnessStorage::on_the_fly; }
   const materials::Micromodulus& micromodulus() const { return micromodulus_; }
   bool broken(BondId b) const { return (ends_[b] & broken_bit) != 0; }
-  void set_broken(BondId b);
   int pair_of(BondId b) const;
 
   /// Of memory, most of it 6 bytes a bond; 2 if stiffness is computed on the fly.
@@ -83,16 +83,18 @@ class BondFamilies {
   };
   Extremes neighbourhood_extremes(const morphing::MorphingField<dim>& alpha) const;
 
-  /// Stretches of the bonds that break_overstretched() would break; those of which this rank owns the first element, so
-  /// that each comes from one rank. Local.
+  /// The intact bonds whose stretch reaches the critical one [WHL19, eq. 6, 7], between two different elements that
+  /// both may break, ascending. Local: every rank that holds a bond decides alike.
+  /// @param displacements at the points, (n_points), [length]; only those of elements with bonds are read
+  std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
+                                    const std::vector<morphing::ElementClass>& classes) const;
+
+  /// Their stretches; those of which this rank owns the first element, so that each comes from one rank. Local.
   std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
                                     const std::vector<morphing::ElementClass>& classes) const;
 
-  /// Breaks every intact bond whose stretch reaches the critical one [WHL19, eq. 6, 7], between two different elements
-  /// that both may break. Returns them, ascending. Local: every rank that holds a bond decides alike.
-  /// @param displacements at the points, [length]; only those of elements with bonds are read
-  std::vector<BondId> break_overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
-                                          const std::vector<morphing::ElementClass>& classes);
+  /// Marks bonds as broken. Local.
+  void take(const BondChange& change);
 
  private:
   const mesh::Mesh<dim>& mesh_;

@@ -38,8 +38,9 @@ class Dirichlet {
   Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions);
 
   bool prescribes(int reference_node, int component) const { return fixed_[reference_node * dim + component]; }
-  double value(int reference_node, int component, double load_factor) const {
-    return values_[reference_node * dim + component].at(load_factor);
+  /// The displacement over the load factor, [length]; zero where none is prescribed.
+  const Ramp<double>& ramp(int reference_node, int component) const {
+    return values_[reference_node * dim + component];
   }
 
  private:
@@ -58,9 +59,17 @@ class Loads {
   std::vector<double> forces(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                              const DofMap<dim>& dofs, double load_factor) const;
 
+  /// How fast they grow with the load factor, as forces(). Local.
+  std::vector<double> rates(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                            const DofMap<dim>& dofs) const;
+
  private:
   std::vector<SurfaceTraction<dim>> tractions_;
   Ramp<base::Point<dim>> body_force_;
+
+  template <class Value>
+  std::vector<double> integrate(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                                const DofMap<dim>& dofs, Value value) const;
 };
 
 }  // namespace perimorph::discretization

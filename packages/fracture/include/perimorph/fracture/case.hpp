@@ -7,7 +7,7 @@
 
 #include "perimorph/materials/elasticity.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
-#include "perimorph/operators/morphed_stiffness.hpp"
+#include "perimorph/operators/coupled_system.hpp"
 
 namespace perimorph::fracture {
 
@@ -17,10 +17,10 @@ using operators::PeridynamicStiffness;
 enum class SeedShape { ball, cylinder, box, everything, automatic };
 enum class PreCrackShape { polyline, polygon, disc };  ///< the first in 2D, the others in 3D
 using BlendingFunction = morphing::BlendingFunction;
-enum class DiscontinuousElements { on_damage, whole_zone };
+using discretization::DiscontinuousElements;
 enum class Calibration { analytic, mesh_consistent };  ///< of the critical stretch and the fracture energy
-enum class OperatorForm { crs, matrix_free, on_the_fly };
-enum class PreconditionerMatrix { coupled, short_range };
+using operators::OperatorForm;
+using operators::PreconditionerMatrix;
 
 /// A first peridynamic zone: alpha = 1 inside, falling to 0 over the rim. Lengths in the mesh's unit.
 struct Seed {

@@ -12,6 +12,8 @@
 
 namespace perimorph::fracture {
 
+using discretization::SavedState;
+
 /// A run's checkpoints: the state after the last accepted increment, kept in memory, and brought to disk when it is
 /// due, asked for or about to be lost. They do not depend on the number of ranks.
 template <int dim>
@@ -74,7 +76,7 @@ class Checkpoints {
 
   int increment_ = 0;        ///< loaded or remembered last
   bool is_on_disk_ = false;  ///< that one
-  BodyState<dim> body_;
+  SavedState<dim> body_;
   std::vector<base::GlobalId> own_ids_;  ///< of elements, in the order of body_.displacement
   std::optional<ResultsState> results_;
   std::vector<double> costs_then_;  ///< costs_ when it was accepted
@@ -88,8 +90,8 @@ class Checkpoints {
   double last_written_ = 0.;
 
   io::Checkpoint read_newest() const;
-  BodyState<dim> body_state_in(const io::Checkpoint& checkpoint, const mesh::Mesh<dim>& mesh) const;
-  io::Checkpoint gather(const BodyState<dim>& state, const std::vector<base::GlobalId>& elements) const;
+  SavedState<dim> body_state_in(const io::Checkpoint& checkpoint, const mesh::Mesh<dim>& mesh) const;
+  io::Checkpoint gather(const SavedState<dim>& state, const std::vector<base::GlobalId>& elements) const;
   bool is_due(int increment);
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "perimorph/operators/coupled_model.hpp"
+#include "perimorph/operators/force_term.hpp"
 
 namespace perimorph::operators {
 
@@ -13,18 +14,19 @@ namespace perimorph::operators {
 /// and one single-precision number per bond, so that few bytes stream past per bond. If the bonds compute their
 /// stiffness on the fly, the mask is all: a tenth of the bytes for twice the arithmetic.
 template <int dim>
-class BondForces {
+class BondForces : public LinearTerm<dim> {
  public:
-  /// Of the intact bonds. Local. The model is read again by subtract() and must outlive this.
+  /// Of the intact bonds. Local. The model is read again later and must outlive this.
   explicit BondForces(const CoupledModel<dim>& model);
 
-  /// force += B^T K_bonds B u; both on all local degrees of freedom. Right on those that this rank owns.
-  void add(const double* u, double* force) const;
+  void add_tangent_product(base::ConstField x, base::Field force) const override;
+  void take(const bonds::BondChange& change) override;
+  std::size_t bytes() const override;
 
-  /// Takes newly broken bonds out. Local.
-  void subtract(const std::vector<std::size_t>& broken);
-
-  std::size_t bytes() const;  ///< of memory
+  // In a matrix, with those bonds that it selects.
+  void couple(const StiffnessMatrix<dim>& matrix, Couplings<dim>& couplings) const override;
+  void add_to(StiffnessMatrix<dim>& matrix) const override;
+  void take(const bonds::BondChange& change, StiffnessMatrix<dim>& matrix, std::vector<int>& changed) const override;
 
  private:
   struct Packet {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "perimorph/base/field.hpp"
 #include "perimorph/operators/coupled_model.hpp"
 
 namespace perimorph::operators {
@@ -28,6 +29,7 @@ struct Overlap {
 /// normal n of the reference mesh, as strains are small. Local.
 /// @param u on all local degrees of freedom (copies too), [length]
 template <int dim>
-Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing, const double* u);
+Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing,
+                             base::ConstField u);
 
 }  // namespace perimorph::operators

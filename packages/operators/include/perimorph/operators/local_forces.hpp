@@ -3,21 +3,21 @@
 #include <vector>
 
 #include "perimorph/operators/coupled_model.hpp"
+#include "perimorph/operators/force_term.hpp"
 
 namespace perimorph::operators {
 
 /// K_local u without a matrix: the forces of E(x), element by element. What it stores per element is the gradients of
 /// the shape functions, sqrt(w) dN/dx, which is less than an element matrix; four elements are computed at once.
 template <int dim>
-class LocalForces {
+class LocalForces : public LinearTerm<dim> {
  public:
-  /// Of the active elements with E != 0. Copies what it needs. Local.
+  /// Of the active elements with E != 0. The model is read again by add_to() and must outlive this. Local.
   explicit LocalForces(const CoupledModel<dim>& model);
 
-  /// force += K_local u; both on all local degrees of freedom. Right on those that this rank owns.
-  void add(const double* u, double* force) const;
-
-  std::size_t bytes() const;  ///< of memory
+  void add_tangent_product(base::ConstField x, base::Field force) const override;
+  void add_to(StiffnessMatrix<dim>& matrix) const override;
+  std::size_t bytes() const override;
 
  private:
   /// Elements of one kind: of E0 everywhere, or each point with an E of its own. Four elements follow each other lane
@@ -29,7 +29,7 @@ class LocalForces {
     std::vector<double> gradients;  ///< per four elements: (n_points, n_corners, dim, 4), [length^(dim/2 - 1)]
     std::vector<double> stiffness;  ///< per four elements: (n_points, n_voigt (n_voigt + 1) / 2, 4), [stress]
   };
-  base::Stiffness<dim> e0_;
+  CoupledModel<dim> model_;
   std::vector<Group> groups_;
 
   Group& group(int n_corners, int n_points, bool has_own_stiffness);

@@ -5,7 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "perimorph/operators/supports.hpp"
+#include "perimorph/discretization/space.hpp"
+#include "perimorph/operators/coupled_model.hpp"
 
 namespace perimorph::operators {
 
@@ -23,7 +24,8 @@ class PointBasis : public Tpetra::Operator<double> {
   using Map = Tpetra::Map<>;
 
   /// Collective. The model is read again and must outlive this.
-  PointBasis(const CoupledModel<dim>& model, const Supports<dim>& supports, const std::vector<char>& discontinuous);
+  PointBasis(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
+             const std::vector<char>& discontinuous);
 
   /// Whether the q-th "node" of a local element is its q-th point. The same on every rank that has the element.
   bool holds(int element) const { return holds_[element]; }
@@ -52,7 +54,7 @@ class PointBasis : public Tpetra::Operator<double> {
   std::vector<Element> elements_;
   std::map<const elements::ReferenceElement<dim>*, CornerMatrix> tables_;
 
-  bool is_suitable(int element, const Supports<dim>& supports) const;
+  bool is_suitable(int element, const discretization::Space<dim>& space) const;
 };
 
 /// The unknowns of a topology from those of the one before, by owned node: those that nodes have parted from, and for

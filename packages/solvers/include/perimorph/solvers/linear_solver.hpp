@@ -37,11 +37,17 @@ class LinearSolver {
   /// The preconditioner is rebuilt before the next solve: nothing that comes depends on solves before. Local.
   void forget();
 
-  /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Returns the iterations. Collective.
+  struct Outcome {
+    bool converged;
+    int iterations;
+    std::string trouble;  ///< why it did not
+  };
+
+  /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Collective.
   /// If the iteration breaks down or does not converge, it is tried again with a rebuilt, robust preconditioner, and
   /// then with the last one: a factorization of the preconditioner's matrix, or a single level where that would take
-  /// too much memory. @throws ComputationError if that fails too.
-  int solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
+  /// too much memory.
+  Outcome solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 
  private:
   enum class Condition { missing, aged, good };
@@ -64,11 +70,6 @@ class LinearSolver {
   bool is_factorized() const;
   void prepare();
   void build();
-  struct Outcome {
-    bool converged;
-    int iterations;
-    std::string trouble;
-  };
   Outcome attempt(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   Outcome iterate(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   double fresh_rate_ = 0.;  ///< iterations per decade of reduction with the preconditioner as built

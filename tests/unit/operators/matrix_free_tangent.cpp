@@ -21,10 +21,11 @@ Setup held(bool discontinuous, bool triangles, bonds::StiffnessStorage kept) {
   return setup;
 }
 
-class MatrixFreeStiffness : public ::testing::TestWithParam<std::tuple<bool, bool, bonds::StiffnessStorage>> {
+class MatrixFreeTangent : public ::testing::TestWithParam<std::tuple<bool, bool, bonds::StiffnessStorage>> {
  protected:
   CoupledBody body{std::apply(held, GetParam())};
-  operators::MatrixFreeStiffness<2> matrix_free{body.model(), body.supports()};
+  operators::ForceTerms<2> terms = body.terms();
+  operators::MatrixFreeTangent<2> matrix_free = body.tangent(terms);
 
   Vector wave() const {
     Vector x(body.dofs->owned_dofs());
@@ -53,7 +54,7 @@ class MatrixFreeStiffness : public ::testing::TestWithParam<std::tuple<bool, boo
       if (first == second || (body.mesh.element_ids[first] + body.mesh.element_ids[second]) % 3 != 0) continue;
       for (auto b = body.bonds.first_bond(p); b < body.bonds.first_bond(p + 1); ++b) {
         if ((body.bonds.first_end(b) + body.bonds.second_end(b)) % 2 == 0) continue;
-        body.bonds.set_broken(b);
+        body.topology.take({{b}});
         broken.push_back(b);
       }
     }
@@ -61,19 +62,19 @@ class MatrixFreeStiffness : public ::testing::TestWithParam<std::tuple<bool, boo
   }
 };
 
-TEST_P(MatrixFreeStiffness, AgreesWithTheMatrix) { expect_the_same_product(); }
+TEST_P(MatrixFreeTangent, AgreesWithTheMatrix) { expect_the_same_product(); }
 
-TEST_P(MatrixFreeStiffness, AgreesWithTheMatrixAfterBondsBreak) {
+TEST_P(MatrixFreeTangent, AgreesWithTheMatrixAfterBondsBreak) {
   const auto broken = break_some();
-  body.stiffness->subtract(broken);
-  matrix_free.subtract(broken);
+  body.stiffness->take({broken});
+  for (const auto& term : terms) term->take({broken});
   expect_the_same_product();
 }
 
-TEST_P(MatrixFreeStiffness, LeavesBrokenBondsOutWhenItIsMadeAnew) {
+TEST_P(MatrixFreeTangent, LeavesBrokenBondsOutWhenItIsMadeAnew) {
   const std::size_t bytes = matrix_free.bytes();
-  body.stiffness->subtract(break_some());
-  const operators::MatrixFreeStiffness<2> anew(body.model(), body.supports());
+  body.stiffness->take({break_some()});
+  const auto anew = body.tangent(body.terms());
   if (body.bonds.computes_stiffness()) {
     EXPECT_LE(anew.bytes(), bytes);  // a block is left out when all of its bonds are gone
   } else {
@@ -88,7 +89,7 @@ TEST_P(MatrixFreeStiffness, LeavesBrokenBondsOutWhenItIsMadeAnew) {
   EXPECT_LT(actual.norm2(), 1e-13 * norm);
 }
 
-TEST_P(MatrixFreeStiffness, AddsToAScaledVector) {
+TEST_P(MatrixFreeTangent, AddsToAScaledVector) {
   const Vector x = wave();
   Vector product(x.getMap()), actual(x.getMap());
   matrix_free.apply(x, product);
@@ -101,7 +102,7 @@ TEST_P(MatrixFreeStiffness, AddsToAScaledVector) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, MatrixFreeStiffness,
+INSTANTIATE_TEST_SUITE_P(Meshes, MatrixFreeTangent,
                          ::testing::Combine(::testing::Bool(), ::testing::Bool(),
                                             ::testing::Values(bonds::StiffnessStorage::stored,
                                                               bonds::StiffnessStorage::on_the_fly)));
@@ -109,8 +110,8 @@ INSTANTIATE_TEST_SUITE_P(Meshes, MatrixFreeStiffness,
 TEST(StiffnessOnTheFly, NeedsLessMemoryAndIsThatWhichIsStored) {
   const CoupledBody stored(held(false, false, bonds::StiffnessStorage::stored));
   const CoupledBody computed(held(false, false, bonds::StiffnessStorage::on_the_fly));
-  const operators::MatrixFreeStiffness<2> with_numbers(stored.model(), stored.supports());
-  const operators::MatrixFreeStiffness<2> without(computed.model(), computed.supports());
+  const auto with_numbers = stored.tangent(stored.terms());
+  const auto without = computed.tangent(computed.terms());
   ASSERT_EQ(stored.bonds.n_bonds(), computed.bonds.n_bonds());
   EXPECT_LE(computed.bonds.bytes() + 4 * stored.bonds.n_bonds(), stored.bonds.bytes());
   EXPECT_LT(without.bytes(), with_numbers.bytes() - 3 * stored.bonds.n_bonds());

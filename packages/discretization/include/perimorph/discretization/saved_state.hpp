@@ -1,0 +1,36 @@
+#pragma once
+
+#include "perimorph/discretization/topology.hpp"
+
+namespace perimorph::discretization {
+
+/// A broken bond by the global ids of its points, and the call in which it broke.
+struct BrokenBond {
+  base::GlobalId first, second, call;
+};
+
+/// One rank's share of a state by global ids, as it goes into a checkpoint or to another partition. From the shares of
+/// any number of ranks, any other number of ranks can go on.
+template <int dim>
+struct SavedState : History<dim> {
+  static constexpr int values_per_element = dim << dim;  ///< as many corners as an element can have, dim values each
+
+  std::vector<BrokenBond> broken;    ///< bonds of which this rank owns the first element, as they broke
+  std::vector<double> displacement;  ///< of owned elements, (n_owned_elements, values_per_element), [length]
+};
+
+/// Local.
+template <int dim>
+SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology);
+
+/// The broken bonds that this rank holds, out of those of all ranks. Collective.
+/// @throws UserError if bonds of the state do not exist in this body.
+template <int dim>
+BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology);
+
+/// The displacement on all local degrees of freedom. Local.
+/// @param saved has that of all local elements
+template <int dim>
+std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topology<dim>& topology);
+
+}  // namespace perimorph::discretization

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <memory>
+
+#include "perimorph/bonds/bond_families.hpp"
+#include "perimorph/discretization/dof_map.hpp"
+#include "perimorph/discretization/state.hpp"
+
+namespace perimorph::discretization {
+
+/// Which peridynamic elements get nodes of their own: those with a broken bond or a pre-crack through them, or all.
+enum class DiscontinuousElements { on_damage, whole_zone };
+
+/// How a body is divided between the models.
+template <int dim>
+struct TopologyOptions {
+  std::vector<morphing::Zone<dim>> seeds;
+  std::vector<mesh::CrackFacet<dim>> pre_cracks;
+  materials::Micromodulus micromodulus;
+  morphing::BlendingFunction blending_function;
+  DiscontinuousElements discontinuous;
+  double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o of zones around flag points, [length]
+  int points_per_direction = 2;                     ///< material points of an element
+  bonds::StiffnessStorage stiffness = bonds::StiffnessStorage::stored;
+};
+
+/// What follows from a state and is rebuilt from it, never stored: alpha, the bonds there are, the classes of elements,
+/// which of them are discontinuous, and the numbering of unknowns.
+template <int dim>
+class Topology {
+ public:
+  /// Nothing is built yet. Collective. The mesh must outlive this.
+  Topology(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, TopologyOptions<dim> options);
+
+  /// Alpha and bonds follow the flag points, growth by growth: the order of the bonds depends on it. Returns whether
+  /// anything grew; the first time it does. Local (flag points are alike on all ranks).
+  bool grow(const std::vector<FlagPoint<dim>>& flag_points);
+
+  /// What update() has changed.
+  struct Change {
+    bool models = false;     ///< classes or discontinuous elements
+    bool numbering = false;  ///< of the unknowns
+  };
+
+  /// Classes, discontinuous elements and numbering follow alpha and damage. Collective.
+  /// @param has_grown as grow() said
+  /// @throws UserError the first time, if a pre-crack cuts through elements outside the peridynamic zone.
+  Change update(bool has_grown);
+
+  /// A displacement on the numbering before the last change of it, on the present one: nodes start where the node is
+  /// that they have parted from; from none at all it is zero. Local.
+  std::vector<double> carried_over(const std::vector<double>& displacement) const;
+
+  /// Makes the centroids of owned elements that are newly damaged flag points, on all ranks, by ascending element;
+  /// returns how many. Collective.
+  base::GlobalId flag_damaged_elements(std::vector<FlagPoint<dim>>& flag_points);
+
+  /// Takes note of flag points that come from elsewhere. Local.
+  void note_flags(const std::vector<FlagPoint<dim>>& flag_points);
+
+  /// Marks bonds as broken. Local.
+  void take(const bonds::BondChange& change) { bonds_.take(change); }
+
+  // All local.
+  bool is_built() const { return dofs_ != nullptr; }
+  const mesh::Mesh<dim>& mesh() const { return mesh_; }
+  const elements::MaterialPoints<dim>& points() const { return points_; }
+  const morphing::MorphingField<dim>& alpha() const { return alpha_; }
+  const bonds::BondFamilies<dim>& bonds() const { return bonds_; }
+  const std::vector<morphing::ElementClass>& classes() const { return classes_; }
+  const std::vector<char>& discontinuous() const { return discontinuous_; }  ///< per element, right in the halo too
+  base::GlobalId n_discontinuous() const { return n_discontinuous_; }        ///< over all ranks
+  const DofMap<dim>& dofs() const { return *dofs_; }
+  /// The numbering before the last update(), until it is dropped: then, and if nothing changed, the present one.
+  const DofMap<dim>& old_dofs() const { return old_dofs_ ? *old_dofs_ : *dofs_; }
+  void drop_old_dofs() { old_dofs_.reset(); }
+
+ private:
+  Teuchos::RCP<const base::Comm> comm_;
+  const mesh::Mesh<dim>& mesh_;
+  TopologyOptions<dim> options_;
+
+  elements::MaterialPoints<dim> points_;
+  morphing::MorphingField<dim> alpha_;
+  bonds::BondFamilies<dim> bonds_;
+  HaloExchange element_exchange_, corner_exchange_;
+  std::vector<char> cut_by_pre_crack_;  ///< per local element
+  std::size_t n_grown_ = 0;             ///< flag points that alpha follows already
+  bool has_seeds_ = false;              ///< alpha follows the seeds already
+
+  std::vector<morphing::ElementClass> classes_;
+  std::vector<char> discontinuous_;
+  std::vector<char> flagged_;  ///< per owned element: it has a flag point
+  base::GlobalId n_discontinuous_ = 0;
+  std::unique_ptr<DofMap<dim>> dofs_, old_dofs_;
+
+  void classify();
+  bool find_discontinuous();
+  void check_pre_cracks() const;
+};
+
+}  // namespace perimorph::discretization

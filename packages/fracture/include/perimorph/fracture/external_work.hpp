@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "perimorph/base/field.hpp"
+
+namespace perimorph::fracture {
+
+/// The work of all outer forces from one solution to the next. While the load rises no bond breaks and forces change
+/// linearly; at a fixed load only prescribed forces do work. Values are on owned degrees of freedom.
+class ExternalWork {
+ public:
+  /// The load has changed since the last solution.
+  void load_changes() { load_is_new_ = true; }
+
+  /// Goes on from a solution whose forces are known, or with another numbering, whose forces are not.
+  void go_on_from(base::ConstField u, std::vector<double> force) {
+    last_u_.assign(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(force.size()));
+    last_force_ = std::move(force);
+  }
+
+  /// This rank's share up to a new solution, [energy].
+  double up_to(base::ConstField u, const std::vector<double>& force, const std::vector<double>& loads) {
+    double work = 0.;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      work += (u[i] - last_u_[i]) * (load_is_new_ ? 0.5 * (last_force_[i] + force[i]) : loads[i]);
+    }
+    load_is_new_ = false;
+    go_on_from(u, force);
+    return work;
+  }
+
+ private:
+  std::vector<double> last_u_, last_force_;
+  bool load_is_new_ = false;
+};
+
+}  // namespace perimorph::fracture

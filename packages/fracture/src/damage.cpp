@@ -1,0 +1,55 @@
+#include "perimorph/fracture/damage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "perimorph/operators/broken_bonds.hpp"
+
+namespace perimorph::fracture {
+
+namespace {
+
+/// The stretch from which bonds break: the critical one, or that of the last bond among the worst. Those that stretch
+/// as far up to rounding, such as mirror images, go together.
+template <int dim>
+double breaking_stretch(const base::Comm& comm, const bonds::BondFamilies<dim>& bonds,
+                        const std::vector<base::Point<dim>>& u, const std::vector<morphing::ElementClass>& classes,
+                        const BreakingRule& rule) {
+  constexpr double rounding = 1e-12;
+  if (rule.fraction >= 1.) return rule.critical_stretch;
+  auto all = base::gather_on_all(comm, bonds.overstretches(u, rule.critical_stretch, classes));
+  if (all.empty()) return rule.critical_stretch;
+  const auto n_worst = static_cast<long>(std::ceil(rule.fraction * static_cast<double>(all.size())));
+  std::nth_element(all.begin(), all.begin() + (n_worst - 1), all.end(), std::greater<>());
+  return std::max(rule.critical_stretch, all[static_cast<std::size_t>(n_worst - 1)] - rounding);
+}
+
+}  // namespace
+
+template <int dim>
+bonds::BondChange bonds_that_break(const base::Comm& comm, const operators::CoupledModel<dim>& model,
+                                   const std::vector<base::Point<dim>>& displacement_at_points,
+                                   const std::vector<morphing::ElementClass>& classes, const BreakingRule& rule) {
+  const auto& bonds = model.bonds;
+  const double stretch = breaking_stretch(comm, bonds, displacement_at_points, classes, rule);
+  bonds::BondChange change;
+  change.broken = bonds.overstretched(displacement_at_points, stretch, classes);
+  change.energy = base::sum(comm, operators::bond_energy(model, change.broken, displacement_at_points));
+  const auto is_counted_here = [&](std::size_t b) {
+    return bonds.pair(bonds.pair_of(b)).first < model.mesh.n_owned_elements;
+  };
+  const auto n_own = std::count_if(change.broken.begin(), change.broken.end(), is_counted_here);
+  change.n_broken = base::sum(comm, static_cast<base::GlobalId>(n_own));
+  return change;
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                    \
+  template bonds::BondChange bonds_that_break(const base::Comm&, const operators::CoupledModel<dim>&, \
+                                              const std::vector<base::Point<dim>>&,                   \
+                                              const std::vector<morphing::ElementClass>&, const BreakingRule&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
+
+}  // namespace perimorph::fracture

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <optional>
+
+#include "perimorph/base/profile.hpp"
+#include "perimorph/discretization/topology.hpp"
+#include "perimorph/operators/load_forces.hpp"
+#include "perimorph/operators/matrix_free_tangent.hpp"
+#include "perimorph/operators/nonlinear_system.hpp"
+#include "perimorph/operators/stiffness_matrix.hpp"
+#include "perimorph/operators/supports.hpp"
+
+namespace perimorph::operators {
+
+/// In which form conjugate gradients apply the tangent: a matrix; without one, with the stiffness of bonds stored or
+/// computed at each application.
+enum class OperatorForm { crs, matrix_free, on_the_fly };
+
+/// What multigrid is made from: the tangent itself, or with the bonds of short range only.
+enum class PreconditionerMatrix { coupled, short_range };
+
+struct SystemOptions {
+  PeridynamicStiffness peridynamic_stiffness = PeridynamicStiffness::dropped;
+  OperatorForm operator_form = OperatorForm::matrix_free;
+  PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
+  double short_range_cut_off = 0.;  ///< [length]
+};
+
+/// The balance of the coupled model as a list of terms on a space: local elements, bonds, anchors; against them the
+/// loads. Another term joins in make_terms().
+template <int dim>
+class CoupledSystem : public NonlinearSystem {
+ public:
+  /// The arguments must outlive this. It has no terms before the first assemble().
+  CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
+                const discretization::Dirichlet<dim>& dirichlet, const discretization::Loads<dim>& loads,
+                const base::Stiffness<dim>& e0, SystemOptions options, base::Profile& profile);
+
+  /// E(x) follows alpha, bonds and classes of the topology. Local.
+  void follow_morphing();
+
+  /// Makes terms and matrices of the present topology. Collective.
+  void assemble();
+
+  /// From now on this load factor holds. Local.
+  void apply_load(double load_factor);
+
+  /// Bonds have broken: terms and matrices take them out, and so do the forces, if there are any. Returns the owned
+  /// nodes whose rows have changed in the preconditioner's matrix, some more than once. Local.
+  std::vector<int> take(const bonds::BondChange& change);
+
+  void evaluate(base::ConstField u) override;
+  Norms residual(Vector& residual) const override;
+  void correct(base::Field u, const Vector& correction) override;
+  void prepare_tangent(base::ConstField u) override;
+  Teuchos::RCP<Operator> tangent() const override;
+  void load_derivative(Vector& derivative) const override;
+  void scale_anchors(double factor) override { anchors_->scale(factor); }
+  const Teuchos::RCP<const Tpetra::Map<>>& unknowns() const override { return space_->dofs().owned_dofs(); }
+
+  /// What the preconditioner is made from, as of the last assemble().
+  struct Preconditioning {
+    Teuchos::RCP<Tpetra::CrsMatrix<double>> matrix;
+    Teuchos::RCP<const PointBasis<dim>> basis;  ///< of the matrix's unknowns; null: nodal displacements
+    std::vector<base::Point<dim>> coordinates;  ///< of the matrix's nodes, [length]
+    std::optional<base::NodeWeights> from_old;  ///< its nodes from those of the one before, if there was one
+  };
+  /// Local; to be taken once after each assemble().
+  Preconditioning preconditioning();
+
+  // All local.
+  CoupledModel<dim> model() const;
+  const discretization::Space<dim>& space() const { return *space_; }
+  bool has_forces() const { return has_forces_; }  ///< of the present load and topology
+  void forget_forces() { has_forces_ = false; }
+  const std::vector<double>& internal_force() const { return internal_; }  ///< on owned degrees of freedom, [force]
+  const std::vector<double>& loads() const { return loads_; }              ///< the same
+  const std::vector<base::Point<dim>>& displacement_at_points() const { return at_points_; }  ///< [length]
+  const ForceTerms<dim>& terms() const { return terms_; }                                     ///< of the internal force
+  std::size_t bytes_of_operator() const;  ///< of memory, in the form that conjugate gradients apply
+
+ private:
+  const base::Comm& comm_;
+  const discretization::Topology<dim>& topology_;
+  const discretization::Dirichlet<dim>& dirichlet_;
+  const discretization::Loads<dim>& load_data_;
+  SystemOptions options_;
+  base::Profile& profile_;
+
+  MorphedStiffness<dim> elasticity_;
+  std::unique_ptr<discretization::Space<dim>> space_;
+  ForceTerms<dim> terms_, load_terms_;
+  Teuchos::RCP<Anchors<dim>> anchors_;  ///< also among the terms
+  Teuchos::RCP<MatrixFreeTangent<dim>> tangent_;
+  // As a matrix, and the short-range matrix; null if neither operator nor preconditioner needs them.
+  std::unique_ptr<StiffnessMatrix<dim>> matrix_, short_range_;
+  Teuchos::RCP<const PointBasis<dim>> basis_, old_basis_;  ///< of the short-range matrix, now and before
+  bool was_assembled_ = false;
+
+  std::vector<base::Point<dim>> at_points_;
+  std::vector<double> internal_, loads_;
+  bool has_forces_ = false;
+  double load_factor_ = 0.;
+
+  void make_terms(const Supports<dim>& supports);
+  std::vector<double> sum_of_forces(const ForceTerms<dim>& terms, base::ConstField u) const;
+};
+
+}  // namespace perimorph::operators

@@ -1,0 +1,173 @@
+#include "perimorph/operators/coupled_system.hpp"
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+
+#include "perimorph/operators/bond_forces.hpp"
+#include "perimorph/operators/broken_bonds.hpp"
+#include "perimorph/operators/fields.hpp"
+#include "perimorph/operators/local_forces.hpp"
+
+namespace perimorph::operators {
+
+using base::Phase;
+using base::Point;
+
+template <int dim>
+CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
+                                  const discretization::Dirichlet<dim>& dirichlet,
+                                  const discretization::Loads<dim>& loads, const base::Stiffness<dim>& e0,
+                                  SystemOptions options, base::Profile& profile)
+    : comm_(comm),
+      topology_(topology),
+      dirichlet_(dirichlet),
+      load_data_(loads),
+      options_(options),
+      profile_(profile),
+      elasticity_(e0, options.peridynamic_stiffness) {}
+
+template <int dim>
+CoupledModel<dim> CoupledSystem<dim>::model() const {
+  return {topology_.mesh(), topology_.points(), topology_.bonds(), topology_.alpha(), elasticity_, topology_.dofs()};
+}
+
+template <int dim>
+void CoupledSystem<dim>::follow_morphing() {
+  elasticity_.update(topology_.mesh(), topology_.points(), topology_.bonds(), topology_.alpha(), topology_.classes(),
+                     topology_.discontinuous());
+}
+
+template <int dim>
+void CoupledSystem<dim>::make_terms(const Supports<dim>& supports) {
+  anchors_ = Teuchos::rcp(new Anchors<dim>(supports.anchors));
+  terms_ = {Teuchos::rcp(new LocalForces<dim>(model())), Teuchos::rcp(new BondForces<dim>(model())), anchors_};
+  load_terms_ = {Teuchos::rcp(new LoadForces<dim>(model(), load_data_))};
+}
+
+template <int dim>
+void CoupledSystem<dim>::assemble() {
+  space_ = std::make_unique<discretization::Space<dim>>(topology_.dofs(), dirichlet_);
+  const Supports<dim> supports(model(), *space_, topology_.discontinuous());
+  make_terms(supports);
+  tangent_ = Teuchos::rcp(new MatrixFreeTangent<dim>(*space_, terms_, supports.constraints));
+  const bool is_short_range = options_.preconditioner_matrix == PreconditionerMatrix::short_range;
+  const auto make_matrix = [&](const BondSelection& selection, const Teuchos::RCP<const PointBasis<dim>>& basis) {
+    return std::make_unique<StiffnessMatrix<dim>>(model(), *space_, terms_, supports.constraints, selection, basis);
+  };
+  old_basis_ = basis_;
+  if (is_short_range) {
+    const auto selection = operators::short_range(model(), comm_, options_.short_range_cut_off);
+    basis_ = Teuchos::rcp(new PointBasis<dim>(model(), *space_, topology_.discontinuous()));
+    short_range_ = make_matrix(selection, basis_);
+  }
+  if (options_.operator_form == OperatorForm::crs || !is_short_range) matrix_ = make_matrix(all_bonds, Teuchos::null);
+  has_forces_ = false;
+}
+
+template <int dim>
+typename CoupledSystem<dim>::Preconditioning CoupledSystem<dim>::preconditioning() {
+  Preconditioning result{(short_range_ ? short_range_ : matrix_)->matrix(), basis_, {}, std::nullopt};
+  for (int n = 0; n < topology_.dofs().n_owned_nodes(); ++n) {
+    result.coordinates.push_back(topology_.mesh().coordinates[topology_.dofs().reference_node(n)]);
+  }
+  if (!basis_.is_null()) basis_->move_to_points(result.coordinates);
+  if (was_assembled_) {
+    result.from_old = weights_of_old_unknowns(model(), basis_.get(), topology_.old_dofs(), old_basis_.get());
+  }
+  was_assembled_ = true;
+  return result;
+}
+
+template <int dim>
+void CoupledSystem<dim>::apply_load(double load_factor) {
+  load_factor_ = load_factor;
+  for (const auto& terms : {terms_, load_terms_}) {
+    for (const auto& term : terms) term->apply_load(load_factor);
+  }
+}
+
+template <int dim>
+std::vector<int> CoupledSystem<dim>::take(const bonds::BondChange& change) {
+  for (const auto& term : terms_) term->take(change);
+  std::vector<int> changed;
+  if (matrix_) changed = matrix_->take(change);
+  if (short_range_) changed = short_range_->take(change);
+  if (has_forces_) subtract_bond_forces(model(), change.broken, at_points_, internal_);
+  return changed;
+}
+
+template <int dim>
+std::vector<double> CoupledSystem<dim>::sum_of_forces(const ForceTerms<dim>& terms, base::ConstField u) const {
+  std::vector<double> forces(space_->n_local(), 0.);
+  for (const auto& term : terms) term->add_force(u, base::field(forces));
+  forces.resize(space_->n_owned());
+  return forces;
+}
+
+template <int dim>
+void CoupledSystem<dim>::evaluate(base::ConstField u) {
+  const auto timer = profile_.measure(Phase::residual);
+  at_points_ = displacements_at_points(model(), u);
+  internal_ = sum_of_forces(terms_, u);
+  loads_ = sum_of_forces(load_terms_, u);
+  for (double& load : loads_) load = -load;
+  has_forces_ = true;
+}
+
+template <int dim>
+NonlinearSystem::Norms CoupledSystem<dim>::residual(Vector& residual) const {
+  const auto values = residual.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  std::vector<double> squares = {0., 0.};
+  for (int dof = 0; dof < static_cast<int>(space_->n_owned()); ++dof) {
+    const bool is_prescribed = space_->is_prescribed(dof);
+    const double difference = loads_[dof] - internal_[dof];
+    values(dof, 0) = is_prescribed ? 0. : difference;
+    squares[0] += values(dof, 0) * values(dof, 0);
+    squares[1] += loads_[dof] * loads_[dof] + (is_prescribed ? difference * difference : 0.);
+  }
+  base::sum(comm_, squares);
+  return {std::sqrt(squares[0]), std::sqrt(squares[1])};
+}
+
+template <int dim>
+void CoupledSystem<dim>::correct(base::Field u, const Vector& correction) {
+  const auto values = correction.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t dof = 0; dof < space_->n_owned(); ++dof) u[dof] += values(dof, 0);
+  space_->expand(u, load_factor_);
+  evaluate(u);
+}
+
+template <int dim>
+void CoupledSystem<dim>::prepare_tangent(base::ConstField u) {
+  for (const auto& term : terms_) term->prepare_tangent(u);
+}
+
+template <int dim>
+Teuchos::RCP<NonlinearSystem::Operator> CoupledSystem<dim>::tangent() const {
+  if (options_.operator_form == OperatorForm::crs) return matrix_->linear_operator();
+  return tangent_;
+}
+
+template <int dim>
+void CoupledSystem<dim>::load_derivative(Vector& derivative) const {
+  std::vector<double> forces(space_->n_local(), 0.);
+  const auto rates = space_->prescribed_rates();
+  for (const auto& term : terms_) term->add_tangent_product(base::field(rates), base::field(forces));
+  for (const auto& terms : {terms_, load_terms_}) {
+    for (const auto& term : terms) term->add_load_derivative(base::field(forces));
+  }
+  space_->restrict_forces(base::field(forces));
+  const auto values = derivative.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t dof = 0; dof < space_->n_owned(); ++dof) values(dof, 0) = -forces[dof];
+}
+
+template <int dim>
+std::size_t CoupledSystem<dim>::bytes_of_operator() const {
+  return options_.operator_form == OperatorForm::crs ? matrix_->bytes() : tangent_->bytes();
+}
+
+template class CoupledSystem<2>;
+template class CoupledSystem<3>;
+
+}  // namespace perimorph::operators

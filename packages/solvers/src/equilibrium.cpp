@@ -1,0 +1,81 @@
+#include "perimorph/solvers/equilibrium.hpp"
+
+#include <fmt/format.h>
+
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <limits>
+
+namespace perimorph::solvers {
+
+namespace {
+
+/// The anchors of a tangent, which give way where they hold a piece back (DECISIONS.md, 21): a piece that hangs on
+/// bonds weaker than its anchors moves by little in each correction. By powers of two, so that they come back to the
+/// bit.
+class LooseAnchors {
+ public:
+  explicit LooseAnchors(operators::NonlinearSystem& system) : system_(system) {}
+  ~LooseAnchors() {
+    if (scale_ != 1.) system_.scale_anchors(1. / scale_);
+  }
+  LooseAnchors(const LooseAnchors&) = delete;
+  LooseAnchors& operator=(const LooseAnchors&) = delete;
+
+  bool are_loose() const { return scale_ != 1.; }
+  void loosen() {
+    constexpr double step = 0x1p-10, loosest = 0x1p-30;
+    if (scale_ <= loosest) return;
+    system_.scale_anchors(step);
+    scale_ *= step;
+  }
+
+ private:
+  operators::NonlinearSystem& system_;
+  double scale_ = 1.;
+};
+
+}  // namespace
+
+Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base::Field u, const BalanceTarget& target) {
+  constexpr int max_corrections = 10;
+  // A severed body has no reactions left that its residual could relate to: then these shares of the largest reaction
+  // so far count, and of the largest that a first guess took, which moves the supports alone.
+  constexpr double of_solution = 0.1, of_first_guess = 1e-4;
+  constexpr double slow = 0.5;  // a correction that leaves more of the residual
+
+  operators::NonlinearSystem::Vector residual(system.unknowns()), correction(system.unknowns());
+  LooseAnchors anchors(system);
+  Outcome outcome{false, 0, 0, ""};
+  double last_residual = std::numeric_limits<double>::infinity();
+  for (;;) {
+    const auto norms = system.residual(residual);
+    if (outcome.linear_solves == 0) target.force_scale = std::max(target.force_scale, of_first_guess * norms.reaction);
+    const double largest = target.tolerance * std::max(norms.reaction, target.force_scale);
+    if (norms.residual <= largest) {
+      target.force_scale = std::max(target.force_scale, of_solution * norms.reaction);
+      outcome.converged = true;
+      return outcome;
+    }
+    if (outcome.linear_solves == max_corrections) {
+      outcome.trouble = fmt::format("the forces do not balance: residual {:.3e}, reactions {:.3e} after {} solves",
+                                    norms.residual, norms.reaction, max_corrections);
+      return outcome;
+    }
+    if (!target.may_float && !anchors.are_loose()) anchors.loosen();
+    if (norms.residual > slow * last_residual) anchors.loosen();
+    last_residual = norms.residual;
+
+    system.prepare_tangent(u);
+    const auto linear = solver_.solve(residual, correction, 0.5 * largest);
+    outcome.cg_iterations += linear.iterations;
+    ++outcome.linear_solves;
+    if (!linear.converged) {
+      outcome.trouble = linear.trouble;
+      return outcome;
+    }
+    system.correct(u, correction);
+  }
+}
+
+}  // namespace perimorph::solvers

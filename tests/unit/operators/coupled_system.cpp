@@ -1,0 +1,118 @@
+// The balance of forces as a list of terms: what it tells a solver agrees with finite differences and sums.
+
+#include "perimorph/operators/coupled_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/coupled_body.hpp"
+
+namespace perimorph::tests {
+namespace {
+
+using Vector = Tpetra::Vector<double>;
+
+/// Irregular elements with a zone, pulled at a side and by a traction and a body force.
+class CoupledSystem : public testing::TestWithParam<operators::OperatorForm> {
+ protected:
+  static constexpr double load_factor = 2.;
+  CoupledBody body{[] {
+    Setup setup{{9, 7, 9., 7., Point2::Zero(), 0.15}, 2.2, 0.4, {}};
+    setup.zones = {morphing::Zone<2>::ball({4.5, 3.5}, 2.5, 4.)};
+    setup.prescribed = {{"hold", "left", 0, {0., 0.}}, {"pull", "left", 1, {0.01, 0.02}}};
+    return setup;
+  }()};
+  discretization::Loads<2> loads{{{"top", {Point2(0.3, 1.), Point2(0., 0.5)}}}, {Point2(0.1, -0.2), Point2::Zero()}};
+  base::Profile profile;
+  operators::CoupledSystem<2> system{*body.comm, body.topology, body.dirichlet, loads, body.e0, options(), profile};
+  std::vector<double> u;
+
+  static operators::SystemOptions options() {
+    return {operators::PeridynamicStiffness::dropped, GetParam(), operators::PreconditionerMatrix::short_range, 1.2};
+  }
+
+  void SetUp() override {
+    system.follow_morphing();
+    system.assemble();
+    system.apply_load(load_factor);
+    for (int dof = 0; dof < body.dofs->n_nodes() * 2; ++dof) {
+      const Point2& x = body.mesh.coordinates[body.dofs->reference_node(dof / 2)];
+      u.push_back(0.01 * std::sin(1.3 * x[0] + 0.7 * x[1] + (dof % 2)));
+    }
+    system.space().expand(base::field(u), load_factor);
+    system.evaluate(base::field(u));
+  }
+
+  Vector residual() const {
+    Vector r(system.unknowns());
+    system.residual(r);
+    return r;
+  }
+};
+
+TEST_P(CoupledSystem, TangentIsTheDerivativeOfTheResidual) {
+  Vector change(system.unknowns()), product(system.unknowns());
+  change.randomize();
+  for (const int dof : system.space().prescribed()) {
+    if (static_cast<std::size_t>(dof) < system.space().n_owned()) change.replaceLocalValue(dof, 0.);
+  }
+  const Vector before = residual();
+  system.prepare_tangent(base::field(u));
+  system.tangent()->apply(change, product);
+
+  system.correct(base::field(u), change);
+
+  Vector difference = residual();
+  difference.update(-1., before, 1.);
+  difference.update(1., product, 1.);
+  EXPECT_LT(difference.norm2(), 1e-6 * product.norm2());  // anchors carry no force
+}
+
+TEST_P(CoupledSystem, LoadDerivativeIsThatOfTheResidual) {
+  Vector derivative(system.unknowns());
+  system.load_derivative(derivative);
+  const Vector before = residual();
+
+  constexpr double step = 0.5;  // everything is linear in the load
+  system.apply_load(load_factor + step);
+  system.space().expand(base::field(u), load_factor + step);
+  system.evaluate(base::field(u));
+
+  Vector difference = residual();
+  difference.update(-1., before, 1.);
+  difference.update(-step, derivative, 1.);
+  EXPECT_GT(derivative.norm2(), 0.);
+  EXPECT_LT(difference.norm2(), 1e-10 * derivative.norm2());
+}
+
+TEST_P(CoupledSystem, EnergiesOfTheTermsAddUpToThatOfTheInternalForce) {
+  double of_terms = 0., of_force = 0.;
+  for (const auto& term : system.terms()) of_terms += term->energy(base::field(u));
+  for (std::size_t dof = 0; dof < system.space().n_owned(); ++dof)
+    of_force += 0.5 * u[dof] * system.internal_force()[dof];
+  EXPECT_GT(of_terms, 0.);
+  EXPECT_NEAR(of_terms, of_force, 1e-12 * of_terms);
+}
+
+TEST_P(CoupledSystem, ForcesAfterABreakAreThoseOfAFreshEvaluation) {
+  bonds::BondChange change{body.break_each(3)};
+  system.take(change);
+  const auto updated = system.internal_force();
+
+  system.evaluate(base::field(u));
+
+  double error = 0., size = 0.;
+  for (std::size_t dof = 0; dof < updated.size(); ++dof) {
+    error = std::max(error, std::abs(updated[dof] - system.internal_force()[dof]));
+    size = std::max(size, std::abs(updated[dof]));
+  }
+  EXPECT_GT(size, 0.);
+  EXPECT_LT(error, 1e-6 * size);  // bonds in single precision
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, CoupledSystem,
+                         testing::Values(operators::OperatorForm::crs, operators::OperatorForm::matrix_free));
+
+}  // namespace
+}  // namespace perimorph::tests
