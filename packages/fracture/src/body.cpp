@@ -175,7 +175,7 @@ template <int dim>
 Energies Body<dim>::energies() const {
   const auto& force = system_.internal_force();
   double elastic = 0.;
-  for (std::size_t i = 0; i < force.size(); ++i) elastic += 0.5 * force[i] * state_.displacement[i];
+  for (std::size_t i = 0; i < force.size(); ++i) elastic = std::fma(0.5 * force[i], state_.displacement[i], elastic);
   return {base::sum(*comm_, elastic), state_.energies.dissipated, state_.energies.external_work};
 }
 
