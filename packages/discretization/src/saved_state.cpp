@@ -21,11 +21,11 @@ SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
   const auto& mesh = topology.mesh();
   const auto& bonds = topology.bonds();
   for (const auto& [call, broken] : state.broken) {
-    for (const auto bond : broken) {
-      const auto [first, second] = bonds.pair(bonds.pair_of(bond));
-      if (first >= mesh.n_owned_elements) continue;
-      saved.broken.push_back({topology.points().global_id(first, bonds.first_end(bond)),
-                              topology.points().global_id(second, bonds.second_end(bond)), call});
+    for (const auto id : broken) {
+      const auto bond = bonds.bond(id);
+      if (bond.first_element >= mesh.n_owned_elements) continue;
+      saved.broken.push_back({topology.points().global_id(bond.first_element, bond.first_end),
+                              topology.points().global_id(bond.second_element, bond.second_end), call});
     }
   }
   saved.displacement.assign(mesh.n_owned_elements * stride<dim>, 0.);

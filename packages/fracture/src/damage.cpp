@@ -36,8 +36,8 @@ bonds::BondChange bonds_that_break(const base::Comm& comm, const operators::Coup
   bonds::BondChange change;
   change.broken = bonds.overstretched(displacement_at_points, stretch, classes);
   change.energy = base::sum(comm, operators::bond_energy(model, change.broken, displacement_at_points));
-  const auto is_counted_here = [&](std::size_t b) {
-    return bonds.pair(bonds.pair_of(b)).first < model.mesh.n_owned_elements;
+  const auto is_counted_here = [&](bonds::BondId b) {
+    return bonds.bond(b).first_element < model.mesh.n_owned_elements;
   };
   const auto n_own = std::count_if(change.broken.begin(), change.broken.end(), is_counted_here);
   change.n_broken = base::sum(comm, static_cast<base::GlobalId>(n_own));

@@ -80,15 +80,14 @@ void BondForces<dim>::make_blocks() {
       for (auto& blocks : from_packet) {
         for (int k = 0; k < n; ++k) blocks.push_back({first_packet_[other] + k});
       }
-      for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
-        if (bonds.broken(b)) continue;
-        const int i = bonds.first_end(b), j = bonds.second_end(b);
+      bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
+        if (bond.is_broken) return;
+        const int i = bond.first_end, j = bond.second_end;
         Block& block = *(from_packet[i / n_lanes].end() - n + j / n_lanes);
         block.mask |= bit(i % n_lanes, j % n_lanes);
-        if (bonds.computes_stiffness()) continue;
-        block.stiffness[i % n_lanes * n_lanes + j % n_lanes] =
-            static_cast<float>(bonds.stiffness(b, model_.points.first(e) + i, model_.points.first(other) + j));
-      }
+        if (bonds.computes_stiffness()) return;
+        block.stiffness[i % n_lanes * n_lanes + j % n_lanes] = static_cast<float>(bonds.stiffness(bond));
+      });
     }
     for (const auto& blocks : from_packet) {
       first_block_.push_back(second_.size());
@@ -227,10 +226,11 @@ void BondForces<dim>::spread(double* force) const {
 
 template <int dim>
 void BondForces<dim>::take(const bonds::BondChange& change) {
-  for (const auto bond : change.broken) {
-    const auto [first, second] = model_.bonds.pair(model_.bonds.pair_of(bond));
-    const int i = model_.bonds.first_end(bond), j = model_.bonds.second_end(bond);
-    const int a = first_packet_[first] + i / n_lanes, b = first_packet_[second] + j / n_lanes;
+  for (const auto id : change.broken) {
+    const auto bond = model_.bonds.bond(id);
+    const int i = bond.first_end, j = bond.second_end;
+    const int a = first_packet_[bond.first_element] + i / n_lanes;
+    const int b = first_packet_[bond.second_element] + j / n_lanes;
     const unsigned its_bit = bit(i % n_lanes, j % n_lanes);
     std::size_t block = first_block_[a], position = first_bond_[a];
     for (; second_[block] != b; ++block) position += count_bits(masks_[block]);

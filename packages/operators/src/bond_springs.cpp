@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "perimorph/operators/bond_forces.hpp"
 #include "perimorph/operators/stiffness_matrix.hpp"
@@ -14,13 +13,10 @@ namespace {
 template <int dim>
 using Block = Eigen::Matrix<double, dim, dim>;
 
-/// k xi (x) xi of a bond, as a matrix takes it, or nothing if it does not select the bond.
+/// k xi (x) xi of a bond, as a matrix takes it.
 template <int dim>
-std::optional<Block<dim>> spring_in(const StiffnessMatrix<dim>& matrix, const CoupledModel<dim>& model,
-                                    std::size_t bond, int i, int j) {
-  const base::Point<dim> xi = model.points.position(j) - model.points.position(i);
-  if (!matrix.selects(xi)) return std::nullopt;
-  return matrix.selection().scale * model.spring(bond, i, j) * xi * xi.transpose();
+Block<dim> spring_in(const StiffnessMatrix<dim>& matrix, const CoupledModel<dim>& model, const bonds::Bond<dim>& bond) {
+  return matrix.selection().scale * model.spring(bond) * bond.xi * bond.xi.transpose();
 }
 
 }  // namespace
@@ -28,22 +24,17 @@ std::optional<Block<dim>> spring_in(const StiffnessMatrix<dim>& matrix, const Co
 template <int dim>
 void BondForces<dim>::couple(const StiffnessMatrix<dim>& matrix, Couplings<dim>& couplings) const {
   const auto& bonds = model_.bonds;
-  const auto& points = model_.points;
   for (int p = 0; p < bonds.n_pairs(); ++p) {
     const auto [first, second] = bonds.pair(p);
     const bool is_by_points = matrix.is_by_points(first) || matrix.is_by_points(second);
     for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
-      if (bonds.broken(b)) continue;
-      const int i = bonds.first_end(b), j = bonds.second_end(b);
-      if (!matrix.selects(points.position(points.first(second) + j) - points.position(points.first(first) + i))) {
-        continue;
-      }
-      if (is_by_points) {
-        couplings.add_nodes(matrix.nodes_at(first, i), matrix.nodes_at(second, j));
-      } else {
+      const auto bond = bonds.bond(p, b);
+      if (bond.is_broken || !matrix.selects(bond.xi)) continue;
+      if (!is_by_points) {
         couplings.add_elements(first, second);
         break;
       }
+      couplings.add_nodes(matrix.nodes_at(first, bond.first_end), matrix.nodes_at(second, bond.second_end));
     }
   }
 }
@@ -56,22 +47,17 @@ void BondForces<dim>::add_to(StiffnessMatrix<dim>& matrix) const {
   std::vector<Block<dim>> between;
   for (int p = 0; p < bonds.n_pairs(); ++p) {
     const auto& pair = bonds.pair(p);
-    const int first_a = model_.points.first(pair.first), first_b = model_.points.first(pair.second);
-    const int n_qb = model_.points.count(pair.second);
-    bool has_springs = false;
-    for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
-      if (bonds.broken(b)) continue;
-      const int i = first_a + bonds.first_end(b), j = first_b + bonds.second_end(b);
-      const auto spring = spring_in(matrix, model_, b, i, j);
-      if (!spring) continue;
-      if (!has_springs)
-        between.assign(static_cast<std::size_t>(model_.points.count(pair.first)) * n_qb, Block<dim>::Zero());
-      has_springs = true;
-      between[bonds.first_end(b) * n_qb + bonds.second_end(b)] = *spring;
-      at_points[i] += *spring;
-      at_points[j] += *spring;
-    }
-    if (has_springs) matrix.add_between(pair, between);
+    const int n_first = model_.points.count(pair.first), n_second = model_.points.count(pair.second);
+    between.clear();
+    bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
+      if (bond.is_broken || !matrix.selects(bond.xi)) return;
+      if (between.empty()) between.assign(static_cast<std::size_t>(n_first) * n_second, Block<dim>::Zero());
+      const Block<dim> spring = spring_in(matrix, model_, bond);
+      between[bond.first_end * n_second + bond.second_end] = spring;
+      at_points[bond.first_point] += spring;
+      at_points[bond.second_point] += spring;
+    });
+    if (!between.empty()) matrix.add_between(pair, between);
   }
   for (int e = 0; e < model_.mesh.n_elements(); ++e) {
     if (bonds.is_active(e) && !bonds.pairs_of(e).empty()) {
@@ -85,30 +71,28 @@ void BondForces<dim>::take(const bonds::BondChange& change, StiffnessMatrix<dim>
                            std::vector<int>& changed) const {
   const auto& bonds = model_.bonds;
   const auto& broken = change.broken;
-  std::array<Block<dim>, elements::max_points> at_a, at_b;
+  std::array<Block<dim>, elements::max_points> at_first, at_second;
   std::vector<Block<dim>> between;
   for (std::size_t next = 0; next < broken.size();) {
     const int p = bonds.pair_of(broken[next]);
     const auto& pair = bonds.pair(p);
-    const int first_a = model_.points.first(pair.first), first_b = model_.points.first(pair.second);
-    const int n_qa = model_.points.count(pair.first), n_qb = model_.points.count(pair.second);
-    between.assign(static_cast<std::size_t>(n_qa) * n_qb, Block<dim>::Zero());
-    std::fill_n(at_a.begin(), n_qa, Block<dim>::Zero());
-    std::fill_n(at_b.begin(), n_qb, Block<dim>::Zero());
-    bool has_springs = false;
+    const int n_first = model_.points.count(pair.first), n_second = model_.points.count(pair.second);
+    between.clear();
+    std::fill_n(at_first.begin(), n_first, Block<dim>::Zero());
+    std::fill_n(at_second.begin(), n_second, Block<dim>::Zero());
     for (; next < broken.size() && broken[next] < bonds.first_bond(p + 1); ++next) {
-      const int qa = bonds.first_end(broken[next]), qb = bonds.second_end(broken[next]);
-      const auto spring = spring_in(matrix, model_, broken[next], first_a + qa, first_b + qb);
-      if (!spring) continue;
-      has_springs = true;
-      between[qa * n_qb + qb] = -*spring;
-      at_a[qa] -= *spring;
-      at_b[qb] -= *spring;
+      const auto bond = bonds.bond(p, broken[next]);
+      if (!matrix.selects(bond.xi)) continue;
+      if (between.empty()) between.assign(static_cast<std::size_t>(n_first) * n_second, Block<dim>::Zero());
+      const Block<dim> spring = spring_in(matrix, model_, bond);
+      between[bond.first_end * n_second + bond.second_end] = -spring;
+      at_first[bond.first_end] -= spring;
+      at_second[bond.second_end] -= spring;
     }
-    if (!has_springs) continue;
+    if (between.empty()) continue;
     matrix.add_between(pair, between);
-    matrix.add_at_points(pair.first, at_a.data());
-    matrix.add_at_points(pair.second, at_b.data());
+    matrix.add_at_points(pair.first, at_first.data());
+    matrix.add_at_points(pair.second, at_second.data());
     for (const int element : {pair.first, pair.second}) matrix.append_owned_nodes(element, changed);
   }
 }

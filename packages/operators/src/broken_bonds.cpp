@@ -6,13 +6,6 @@ using base::Point;
 
 namespace {
 
-/// Pull of a bond on its first point, [force].
-template <int dim>
-Point<dim> pull(const CoupledModel<dim>& model, std::size_t bond, int i, int j, const std::vector<Point<dim>>& u) {
-  const Point<dim> xi = model.points.position(j) - model.points.position(i);
-  return model.spring(bond, i, j) * xi.dot(u[j] - u[i]) * xi;
-}
-
 /// Spreads a force at a point of an element to the owned nodes among its corners.
 template <int dim>
 void spread(const CoupledModel<dim>& model, int element, int q, const Point<dim>& at_point,
@@ -31,11 +24,10 @@ template <int dim>
 void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std::size_t>& broken,
                           const std::vector<Point<dim>>& at_points, std::vector<double>& force) {
   for (const auto b : broken) {
-    const auto [first, second] = model.bonds.pair(model.bonds.pair_of(b));
-    const int qa = model.bonds.first_end(b), qb = model.bonds.second_end(b);
-    const Point<dim> f = pull(model, b, model.points.first(first) + qa, model.points.first(second) + qb, at_points);
-    spread(model, first, qa, f, force);
-    spread<dim>(model, second, qb, -f, force);
+    const auto bond = model.bonds.bond(b);
+    const Point<dim> pull = BondSpring<dim>(model, bond, at_points).pull();
+    spread(model, bond.first_element, bond.first_end, pull, force);
+    spread<dim>(model, bond.second_element, bond.second_end, -pull, force);
   }
 }
 
@@ -44,13 +36,9 @@ double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t
                    const std::vector<Point<dim>>& at_points) {
   double energy = 0.;
   for (const auto b : bonds) {
-    const auto [first, second] = model.bonds.pair(model.bonds.pair_of(b));
-    if (first >= model.mesh.n_owned_elements) continue;
-    const int i = model.points.first(first) + model.bonds.first_end(b);
-    const int j = model.points.first(second) + model.bonds.second_end(b);
-    const Point<dim> xi = model.points.position(j) - model.points.position(i);
-    const double stretch = xi.dot(at_points[j] - at_points[i]);
-    energy += 0.5 * model.spring(b, i, j) * stretch * stretch;
+    const auto bond = model.bonds.bond(b);
+    if (bond.first_element >= model.mesh.n_owned_elements) continue;
+    energy += BondSpring<dim>(model, bond, at_points).energy();
   }
   return energy;
 }

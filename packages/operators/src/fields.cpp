@@ -32,16 +32,12 @@ void visit_local_part(const CoupledModel<dim>& model, int e, base::ConstField u,
 /// numbers of points and the bond's share in each end's energy and stress times volume.
 template <int dim, class Visit>
 void visit_bonds(const CoupledModel<dim>& model, int p, const std::vector<Point<dim>>& u, Visit visit) {
-  const auto [first, second] = model.bonds.pair(p);
-  for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
-    if (model.bonds.broken(b)) continue;
-    const int i = model.points.first(first) + model.bonds.first_end(b);
-    const int j = model.points.first(second) + model.bonds.second_end(b);
-    const Point<dim> xi = model.points.position(j) - model.points.position(i);
-    const double stretch = xi.dot(u[j] - u[i]), k = model.spring(b, i, j);
-    const base::Voigt<dim> stress = 0.5 * k * stretch * elements::squared<dim>(xi);
-    visit(i, j, 0.25 * k * stretch * stretch, stress);
-  }
+  model.bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
+    if (bond.is_broken) return;
+    const BondSpring<dim> spring(model, bond, u);
+    const base::Voigt<dim> stress = 0.5 * spring.stiffness * spring.elongation * elements::squared<dim>(spring.xi);
+    visit(bond.first_point, bond.second_point, 0.5 * spring.energy(), stress);
+  });
 }
 
 template <int dim>

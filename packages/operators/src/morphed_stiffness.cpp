@@ -65,15 +65,13 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
   std::fill_n(reduced, n_points, base::Stiffness<dim>::Zero());
   if (is_zero_[element]) return;
   for (const int p : bonds.pairs_of(element)) {
-    const auto [first, second] = bonds.pair(p);
-    for (auto b = bonds.first_bond(p); b < bonds.first_bond(p + 1); ++b) {
-      const int qi = bonds.first_end(b), qj = bonds.second_end(b);
-      const int i = points.first(first) + qi, j = points.first(second) + qj;
-      const auto v = elements::squared<dim>(points.position(j) - points.position(i));
-      const base::Voigt<dim> scaled = (0.25 * (alpha_[i] + alpha_[j]) * bonds.stiffness(b, i, j)) * v;
-      if (first == element) reduced[qi].noalias() += scaled * v.transpose();
-      if (second == element) reduced[qj].noalias() += scaled * v.transpose();
-    }
+    bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
+      const auto v = elements::squared<dim>(bond.xi);
+      const base::Voigt<dim> scaled =
+          (0.25 * (alpha_[bond.first_point] + alpha_[bond.second_point]) * bonds.stiffness(bond)) * v;
+      if (bond.first_element == element) reduced[bond.first_end].noalias() += scaled * v.transpose();
+      if (bond.second_element == element) reduced[bond.second_end].noalias() += scaled * v.transpose();
+    });
   }
   for (int q = 0; q < n_points; ++q) {
     reduced[q] = e0_ - reduced[q] / points.weight(points.first(element) + q);

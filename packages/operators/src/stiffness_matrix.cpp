@@ -223,18 +223,13 @@ void StiffnessMatrix<dim>::add_diagonal(int owned_dof, double stiffness) {
 template <int dim>
 BondSelection short_range(const CoupledModel<dim>& model, const base::Comm& comm, double reach) {
   std::vector<double> sums = {0., 0.};  // all bonds, selected bonds
-  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
-    const auto [first, second] = model.bonds.pair(p);
-    if (first >= model.mesh.n_owned_elements) continue;
-    for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
-      const int i = model.points.first(first) + model.bonds.first_end(b);
-      const int j = model.points.first(second) + model.bonds.second_end(b);
-      const double squared = (model.points.position(j) - model.points.position(i)).squaredNorm();
-      const double stiffness = model.spring(b, i, j) * squared * squared;
-      sums[0] += stiffness;
-      if (squared <= reach * reach) sums[1] += stiffness;
-    }
-  }
+  model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
+    if (bond.first_element >= model.mesh.n_owned_elements) return;
+    const double squared = bond.xi.squaredNorm();
+    const double stiffness = model.spring(bond) * squared * squared;
+    sums[0] += stiffness;
+    if (squared <= reach * reach) sums[1] += stiffness;
+  });
   base::sum(comm, sums);
   return {reach, sums[1] > 0. ? sums[0] / sums[1] : 1.};
 }

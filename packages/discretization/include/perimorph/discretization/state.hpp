@@ -41,7 +41,7 @@ struct History {
 };
 
 /// Bonds that this rank holds, ascending, by the call in which they broke, from 1.
-using BrokenByCall = std::map<base::GlobalId, std::vector<std::size_t>>;
+using BrokenByCall = std::map<base::GlobalId, std::vector<bonds::BondId>>;
 
 /// All that makes a body what it has become: plain data. Zones, alpha, the bonds there are, classes and discontinuous
 /// elements follow from it (Topology).

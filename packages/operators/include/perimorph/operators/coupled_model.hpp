@@ -16,10 +16,28 @@ struct CoupledModel {
   const MorphedStiffness<dim>& elasticity;
   const discretization::DofMap<dim>& dofs;
 
-  /// Stiffness of an intact bond's spring, c0 (alpha(x) + alpha(p)) / 2 w_x w_p  [WHL19, eq. 15, 21].
-  double spring(std::size_t bond, int first_point, int second_point) const {
-    return bonds.stiffness(bond, first_point, second_point) * 0.5 * (alpha(first_point) + alpha(second_point));
+  /// Stiffness of an intact bond's spring, c0 (alpha(x) + alpha(p)) / 2 w_x w_p, [force / length^3]
+  /// [WHL19, eq. 15, 21].
+  double spring(const bonds::Bond<dim>& bond) const {
+    return bonds.stiffness(bond) * 0.5 * (alpha(bond.first_point) + alpha(bond.second_point));
   }
+};
+
+/// The law of an intact bond: a spring along xi, stretched by eta = u(p) - u(x).
+template <int dim>
+struct BondSpring {
+  double stiffness;     ///< k, [force / length^3]
+  base::Point<dim> xi;  ///< [length]
+  double elongation;    ///< xi . eta, [length^2]
+
+  /// @param u displacement at the points, (n_points), [length]
+  BondSpring(const CoupledModel<dim>& model, const bonds::Bond<dim>& bond, const std::vector<base::Point<dim>>& u)
+      : stiffness(model.spring(bond)),
+        xi(bond.xi),
+        elongation(bond.xi.dot(u[bond.second_point] - u[bond.first_point])) {}
+
+  base::Point<dim> pull() const { return stiffness * elongation * xi; }        ///< on its first point, [force]
+  double energy() const { return 0.5 * stiffness * elongation * elongation; }  ///< [energy]
 };
 
 }  // namespace perimorph::operators
