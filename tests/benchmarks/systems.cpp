@@ -137,7 +137,7 @@ class Solution {
     const double load_norm = load_.norm2();
     const Stopwatch watch;
     subtract_forces_of(*stiffness_);
-    const int iterations = solver_->solve(residual_, correction_, tolerance * load_norm);
+    const int iterations = solver_->solve(residual_, correction_, tolerance * load_norm).iterations;
     x_.update(1., correction_, 1.);
     const double seconds = watch.seconds(), set_up = profile_.seconds(base::Phase::preconditioner) - before;
     subtract_forces_of(coupled_);
@@ -167,7 +167,7 @@ void run(const std::string& folder, int side) {
   solution.solve_anew("intact");
   for (int k = 1; k <= 1 + n_advances; ++k) {
     const auto broken = body.break_bonds(body.bonds_across(1, 0.5 * side, first_crack + (k - 1) * advance));
-    body.stiffness->subtract(broken);
+    body.stiffness->take({broken});
     write_change(change_file(folder, k));
     if (k == 1) {
       solution.solve_anew("cracked");

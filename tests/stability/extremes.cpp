@@ -67,7 +67,7 @@ TEST(Extremes, ALoadFarBeyondFailureBreaksEverythingThatCanBreak) {
 base::GlobalId n_not_peridynamic(const WatchedRun& run) {
   base::GlobalId n = 0;
   for (int e = 0; e < run.body().mesh().n_owned_elements; ++e) {
-    n += run.body().classes()[e] != morphing::ElementClass::pd;
+    n += run.body().topology().classes()[e] != morphing::ElementClass::pd;
   }
   return base::sum(run.comm(), n);
 }

@@ -7,11 +7,13 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <set>
 
+#include "perimorph/discretization/topology.hpp"
 #include "perimorph/operators/bond_forces.hpp"
 #include "perimorph/operators/fields.hpp"
 #include "perimorph/operators/local_forces.hpp"
 #include "perimorph/operators/matrix_free_tangent.hpp"
 #include "perimorph/operators/stiffness_matrix.hpp"
+#include "perimorph/operators/supports.hpp"
 #include "support/meshes.hpp"
 
 namespace perimorph::tests {

@@ -117,7 +117,7 @@ TEST_P(BondFamilies, KeepTheirBrokenBondsWhenTheyGrow) {
 
 TEST_P(BondFamilies, HandOutEachBondOnceWithItsEndsItsVectorAndItsState) {
   body.grow({Zone<2>::everything()});
-  for (std::size_t b = 0; b < body.bonds.n_bonds(); b += 3) body.bonds.set_broken(b);
+  for (std::size_t b = 0; b < body.bonds.n_bonds(); b += 3) body.bonds.take({{b}});
 
   const BondList springs = body.list();
   std::size_t next = 0;

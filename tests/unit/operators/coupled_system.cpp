@@ -18,7 +18,7 @@ class CoupledSystem : public testing::TestWithParam<operators::OperatorForm> {
  protected:
   static constexpr double load_factor = 2.;
   CoupledBody body{[] {
-    Setup setup{{9, 7, 9., 7., Point2::Zero(), 0.15}, 2.2, 0.4, {}};
+    tests::Setup setup{{9, 7, 9., 7., Point2::Zero(), 0.15}, 2.2, 0.4, {}};
     setup.zones = {morphing::Zone<2>::ball({4.5, 3.5}, 2.5, 4.)};
     setup.prescribed = {{"hold", "left", 0, {0., 0.}}, {"pull", "left", 1, {0.01, 0.02}}};
     return setup;
