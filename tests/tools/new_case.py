@@ -63,8 +63,8 @@ class NewCase(InFolder):
         self.assert_refused(self.new_case(self.folder / "x", "--from", "plat"), "--from plat", 'did you mean "plate"?')
         self.assertFalse((self.folder / "x").exists())
 
-    def test_a_folder_that_is_there_already_is_left_alone(self):
-        self.assert_refused(self.new_case(self.folder, "--from", "beam"), "is there already")
+    def test_a_folder_that_already_exists_is_left_alone(self):
+        self.assert_refused(self.new_case(self.folder, "--from", "beam"), "already exists")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_name_that_cannot_be_a_files_is_refused(self):

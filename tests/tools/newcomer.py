@@ -76,7 +76,7 @@ class Newcomer(InFolder):
             [sys.executable, "-c", 'import messages; messages.need("numpy", "no_such_module", programs=["sh", "no_such_program"])'],
             cwd=self.clone / "tools/lib", capture_output=True, text=True, timeout=100)
         self.assertEqual(told.returncode, 2, told.stderr)
-        self.assertIn("no_such_module, no_such_program missing, and tools/install-dependencies view has not brought it", told.stderr)
+        self.assertIn("missing: no_such_module, no_such_program; tools/install-dependencies view did not install it", told.stderr)
 
 
 if __name__ == "__main__":

@@ -159,9 +159,9 @@ class Watch(InFolder):
             worked.append(time.thread_time() - begin)
             return len(worked)
 
-        rested, begin = watch.Rested(work), time.monotonic()
+        throttled, begin = watch.Throttled(work), time.monotonic()
         while time.monotonic() < begin + 2:
-            answer = rested("run")
+            answer = throttled("run")
             self.assertEqual(answer, len(worked))  # the last one again
         self.assertGreater(len(worked), 1)
         self.assertLessEqual(sum(worked[:-1]), 1.05 * watch.SHARE * 2)  # the last one is still being made up for
@@ -198,7 +198,7 @@ class Watch(InFolder):
         self.assertEqual([place.partition(":")[0] for place in listening if place.endswith(f":{port:04X}")], ["0100007F"])
 
         self.watch("--bind", "0.0.0.0")
-        self.assertIn("everybody who reaches 0.0.0.0", self.server.stderr.readline())
+        self.assertIn("anyone who can reach 0.0.0.0", self.server.stderr.readline())
 
     def test_answers_to_the_name_of_this_machine_only(self):
         address = self.watch()

@@ -1,4 +1,4 @@
-"""What the Python tools share: the displacement that a run ended with."""
+"""The displacement at the end of a run, for the tools that compare runs."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ AXES = "xy"
 
 
 class Displacement:
-    """Of a run that wrote one file, at its last step, with the nodes of each element, by the element's number in the mesh."""
+    """At the last step of a run that wrote one file. Elements are ordered by their number in the mesh."""
 
     def __init__(self, directory):
         file = ExodusFile(series_of(directory)[0])

@@ -1,4 +1,4 @@
-"""What the Python tools share: how the user's mistakes are told, and how what they need gets there."""
+"""Shared by the Python tools: error messages, and installing what a tool needs."""
 
 import difflib
 import importlib
@@ -10,13 +10,13 @@ import sys
 
 
 def fail(message):
-    """The user's mistake: a message and exit status 2, as the program does."""
+    """Reports a user's mistake and exits with status 2, as the program does."""
     print(f"{os.path.basename(sys.argv[0])}: {message}", file=sys.stderr)
     sys.exit(2)
 
 
 def nearest(name, known):
-    """The known names, nearest first, as the end of a message."""
+    """The end of a message: the known names closest to this one, or else all of them."""
     close = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
     if close:
         return "did you mean " + " or ".join(f'"{c}"' for c in close) + "?"
@@ -29,11 +29,11 @@ def missing(modules, programs):
 
 
 def need(*modules, programs=(), group="view"):
-    """Sees to it that Python modules and programs are there, as tools/run does: what is missing is installed."""
+    """Makes sure that Python modules and programs are available, and installs those that are missing."""
     if not missing(modules, programs):
         return
     subprocess.call([os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "install-dependencies"), group])
     importlib.invalidate_caches()
     left = missing(modules, programs)
     if left:
-        fail(f"{', '.join(left)} missing, and tools/install-dependencies {group} has not brought it")
+        fail(f"missing: {', '.join(left)}; tools/install-dependencies {group} did not install it")

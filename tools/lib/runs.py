@@ -55,7 +55,7 @@ class History:
         return any(value != 0.0 for value in self.columns.get(name, []))
 
     def nonzero(self, prefix):
-        """Columns of that prefix that are not rounding errors beside the largest of them."""
+        """The columns with this prefix, without those that are only rounding errors beside the largest."""
         names = [name for name in self.columns if name.startswith(prefix) and self.is_nonzero(name)]
         largest = {name: max((abs(v) for v in self.columns[name] if math.isfinite(v)), default=0.0) for name in names}
         return [name for name in names if largest[name] > 1e-5 * max(largest.values())]
@@ -102,14 +102,14 @@ Event = collections.namedtuple("Event", "row text")
 
 
 def events_of(history, reaction):
-    """What to look at: the first break, the largest drops of a reaction, the end. In order, each row once."""
+    """The rows worth a look: first break, largest drops of a reaction, end; in order, each once."""
     broken, forces = history["broken_bonds"], magnitudes(history, reaction)
     found = {}
     first = next((row for row, count in enumerate(broken) if count > 0), None)
     if first is not None:
         found[first] = "first break"
     drops = [(forces[row - 1] - forces[row], row) for row in range(1, len(forces))]
-    n_drops, least = 3, 0.1 * max(forces)  # smaller drops are stairs
+    n_drops, least = 3, 0.1 * max(forces)  # smaller drops are steps of steady growth
     for fall, row in sorted(drops, reverse=True)[:n_drops]:
         if fall > least:
             text = f"drop from {forces[row - 1]:.4g} to {forces[row]:.4g}"
@@ -367,8 +367,7 @@ def all_steps(files):
 
 
 def find_step(files, step):
-    """The file and the index in it of an increment. A topology that changed during an increment may have left the same
-    increment in two files: the later one counts."""
+    """The file that has an increment, and its index there; of two files the later one, as in all_steps."""
     known = sorted({time for file in files for time in file.times})
     if not known:
         fail(f"{files[0].name}: no steps in it yet")
@@ -386,7 +385,7 @@ def find_step(files, step):
 
 # The element variable "class" from 0 on: name and colour.
 CLASSES = {"FE": (0.78, 0.83, 0.88), "MORPH": (0.96, 0.72, 0.32), "PD": (0.42, 0.62, 0.80), "DGFE": (0.76, 0.20, 0.22)}
-VIEW = (0.5, -0.75, 0.43)  # direction from the middle of a three-dimensional body to who looks at it
+VIEW = (0.5, -0.75, 0.43)  # direction from the middle of a three-dimensional body to the viewer
 
 
 def warp_factor(text, box, displacement):

@@ -58,7 +58,7 @@ def wait_until(is_enough, process, output):
 
 
 def program(ranks, what, case, settings):
-    """The command that runs or checks a case as the tools for people would, without building."""
+    """The command that runs or checks a case as tools/run would, without building."""
     command = ["bash", "-c", '. "$0"; exec $1 "$perimorph" "${@:2}"', os.path.join(TOOLS, "lib", "environment"),
                f"mpirun --quiet -n {ranks}" if ranks > 1 else "", what, case]
     return command + [part for setting in settings for part in ("--set", setting)]
