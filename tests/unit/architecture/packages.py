@@ -106,6 +106,13 @@ def folder_violations(source):
                 yield f"{folder}: has no {part}"
 
 
+def unit_test_violations(source):
+    """tests/unit has a folder for each package that has tests of its own."""
+    for folder in sorted(p for p in (source / "tests/unit").iterdir() if p.is_dir()):
+        if folder.name not in [*ordered_packages(source), "architecture"]:
+            yield f"{folder}: there is no package of that name, and its tests are not built"
+
+
 def violations(source):
     return [
         *include_violations(source),
@@ -115,6 +122,7 @@ def violations(source):
         *library_violations(source, EXODUS, EXODUS_IN),
         *library_violations(source, PUGIXML, PUGIXML_IN),
         *folder_violations(source),
+        *unit_test_violations(source),
     ]
 
 
@@ -135,7 +143,8 @@ class PlantedViolations(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.copy = pathlib.Path(self.folder.name)
-        shutil.copytree(SOURCE / "packages", self.copy / "packages")
+        for part in ["packages", "tests/unit"]:
+            shutil.copytree(SOURCE / part, self.copy / part)
         self.before = set(violations(self.copy))
 
     def append(self, path, line):
@@ -198,6 +207,10 @@ class PlantedViolations(unittest.TestCase):
     def test_pugixml_outside_input(self):
         self.append("fracture/src/run.cpp", "#include <pugixml.hpp>")
         self.assert_found("pugixml.hpp does not belong into fracture")
+
+    def test_unit_tests_of_no_package(self):
+        (self.copy / "tests/unit/nowhere").mkdir()
+        self.assert_found("tests/unit/nowhere: there is no package of that name")
 
     def test_a_package_without_readme(self):
         readme = self.copy / "packages/bonds/README.md"
