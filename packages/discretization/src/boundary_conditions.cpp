@@ -15,6 +15,8 @@ Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
   base::on_all_ranks(comm, [&] {
     std::vector<const PrescribedComponent*> set_by(fixed_.size(), nullptr);
     for (const auto& condition : conditions) {
+      PERIMORPH_ASSERT(condition.component >= 0 && condition.component < dim, "\"{}\" prescribes component {}",
+                       condition.name, condition.component);
       for (const int node : mesh.node_sets.at(condition.node_set)) {
         const int dof = node * dim + condition.component;
         const auto* other = set_by[dof];

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::discretization {
 
 using base::GlobalId;
@@ -36,6 +38,8 @@ template <int dim>
 DofMap<dim>::DofMap(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
                     const HaloExchange& corners, const std::vector<char>& discontinuous)
     : mesh_(mesh) {
+  PERIMORPH_ASSERT(static_cast<int>(discontinuous.size()) == mesh.n_elements(), "{} flags for {} elements",
+                   discontinuous.size(), mesh.n_elements());
   std::vector<GlobalId> global_at_corner = number_owned(*comm, discontinuous);
   corners.update(global_at_corner);
   add_copies(global_at_corner);

@@ -8,7 +8,8 @@ namespace perimorph::discretization {
 
 HaloExchange::HaloExchange(const base::Comm& comm, const std::vector<base::GlobalId>& keys,
                            const std::vector<int>& owners)
-    : comm_(comm), sent_(comm.getSize()), received_(comm.getSize()) {
+    : comm_(comm), n_items_(keys.size()), sent_(comm.getSize()), received_(comm.getSize()) {
+  PERIMORPH_ASSERT(keys.size() == owners.size(), "{} items with {} owners", keys.size(), owners.size());
   std::unordered_map<base::GlobalId, int> owned;
   std::vector<std::vector<base::GlobalId>> wanted(comm.getSize());
   for (std::size_t i = 0; i < keys.size(); ++i) {

@@ -17,6 +17,8 @@ constexpr auto stride = static_cast<std::size_t>(SavedState<dim>::values_per_ele
 
 template <int dim>
 SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
+  PERIMORPH_ASSERT(state.displacement.size() == static_cast<std::size_t>(topology.dofs().n_nodes()) * dim,
+                   "{} displacements of {} nodes", state.displacement.size(), topology.dofs().n_nodes());
   SavedState<dim> saved{state, {}, {}};
   const auto& mesh = topology.mesh();
   const auto& bonds = topology.bonds();
@@ -66,6 +68,8 @@ BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, c
 template <int dim>
 std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topology<dim>& topology) {
   const auto& dofs = topology.dofs();
+  PERIMORPH_ASSERT(saved.displacement.size() == topology.mesh().n_elements() * stride<dim>,
+                   "{} displacements of {} elements", saved.displacement.size(), topology.mesh().n_elements());
   std::vector<double> u(static_cast<std::size_t>(dofs.n_nodes()) * dim, 0.);
   for (int e = 0; e < topology.mesh().n_elements(); ++e) {
     const double* values = saved.displacement.data() + e * stride<dim>;

@@ -38,6 +38,7 @@ void Space<dim>::expand(base::Field u, double load_factor) const {
 
 template <int dim>
 base::ConstField Space<dim>::expand_change(const Vector& x) const {
+  PERIMORPH_ASSERT(x.getLocalLength() == n_owned(), "{} values for {} unknowns", x.getLocalLength(), n_owned());
   all_->doImport(x, *dofs_.import(), Tpetra::INSERT);
   const auto all = all_->getLocalViewHost(Tpetra::Access::ReadWrite);
   for (const int dof : prescribed_) all(dof, 0) = 0.;
@@ -53,6 +54,8 @@ std::vector<double> Space<dim>::prescribed_rates() const {
 
 template <int dim>
 void Space<dim>::restrict_forces(base::Field forces) const {
+  const auto n = static_cast<std::size_t>(forces.size());
+  PERIMORPH_ASSERT(n == n_local() || n == n_owned(), "{} forces for {} degrees of freedom", n, n_local());
   for (const int dof : prescribed_) {
     if (dof < forces.size()) forces[dof] = 0.;
   }

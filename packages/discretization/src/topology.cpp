@@ -52,10 +52,15 @@ Topology<dim>::Topology(const Teuchos::RCP<const base::Comm>& comm, const mesh::
       cut_by_pre_crack_(find_cut_elements<dim>(mesh, points_, options_.pre_cracks)),
       classes_(mesh.n_elements(), ElementClass::fe),
       discontinuous_(mesh.n_elements(), 0),
-      flagged_(mesh.n_owned_elements, 0) {}
+      flagged_(mesh.n_owned_elements, 0) {
+  PERIMORPH_ASSERT(options_.growth_inner_radius > 0. && options_.growth_outer_radius > options_.growth_inner_radius,
+                   "zones grow to {} and fall to zero at {}", options_.growth_inner_radius,
+                   options_.growth_outer_radius);
+}
 
 template <int dim>
 bool Topology<dim>::grow(const std::vector<FlagPoint<dim>>& flag_points) {
+  PERIMORPH_ASSERT(n_grown_ <= flag_points.size(), "{} of {} flag points are followed", n_grown_, flag_points.size());
   const bool has_grown = !has_seeds_ || n_grown_ < flag_points.size();
   if (!std::exchange(has_seeds_, true)) bonds_.extend(alpha_.add(options_.seeds));
   while (n_grown_ < flag_points.size()) {
@@ -72,6 +77,7 @@ bool Topology<dim>::grow(const std::vector<FlagPoint<dim>>& flag_points) {
 
 template <int dim>
 typename Topology<dim>::Change Topology<dim>::update(bool has_grown) {
+  PERIMORPH_ASSERT(has_seeds_, "the zones have never grown");
   const bool is_first = !is_built();
   if (has_grown) classify();
   const bool split = find_discontinuous();
@@ -154,6 +160,8 @@ template <int dim>
 std::vector<double> Topology<dim>::carried_over(const std::vector<double>& displacement) const {
   std::vector<double> carried(static_cast<std::size_t>(dofs_->n_nodes()) * dim, 0.);
   if (displacement.empty()) return carried;
+  PERIMORPH_ASSERT(displacement.size() == static_cast<std::size_t>(old_dofs().n_nodes()) * dim,
+                   "{} displacements of {} nodes", displacement.size(), old_dofs().n_nodes());
   for (int e = 0; e < mesh_.n_elements(); ++e) {
     for (int k = 0; k < mesh_.n_corners(e); ++k) {
       std::copy_n(displacement.begin() + static_cast<std::ptrdiff_t>(old_dofs().nodes_of(e)[k]) * dim, dim,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lanes.hpp"
+#include "perimorph/base/errors.hpp"
 #include "perimorph/materials/decay.hpp"
 
 namespace perimorph::operators {
@@ -122,6 +123,9 @@ std::size_t BondForces<dim>::shapes_of(const elements::ReferenceElement<dim>& re
 
 template <int dim>
 void BondForces<dim>::add_tangent_product(base::ConstField x, base::Field force) const {
+  const auto n = static_cast<base::ConstField::size_type>(model_.dofs.n_nodes()) * dim;
+  PERIMORPH_ASSERT(x.size() == n && force.size() == n, "{} displacements and {} forces on {} degrees of freedom",
+                   x.size(), force.size(), n);
   gather(x.getRawPtr());
   model_.bonds.computes_stiffness() ? pull<true>() : pull<false>();
   spread(force.getRawPtr());
@@ -226,6 +230,8 @@ void BondForces<dim>::spread(double* force) const {
 
 template <int dim>
 void BondForces<dim>::take(const bonds::BondChange& change) {
+  PERIMORPH_ASSERT(change.broken.empty() || change.broken.back() < model_.bonds.n_bonds(), "bond {} of {}",
+                   change.broken.back(), model_.bonds.n_bonds());
   for (const auto id : change.broken) {
     const auto bond = model_.bonds.bond(id);
     const int i = bond.first_end, j = bond.second_end;

@@ -1,5 +1,7 @@
 #include "perimorph/operators/broken_bonds.hpp"
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::operators {
 
 using base::Point;
@@ -23,6 +25,10 @@ void spread(const CoupledModel<dim>& model, int element, int q, const Point<dim>
 template <int dim>
 void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std::size_t>& broken,
                           const std::vector<Point<dim>>& at_points, std::vector<double>& force) {
+  PERIMORPH_ASSERT(static_cast<int>(at_points.size()) == model.points.size(), "displacements at {} of {} points",
+                   at_points.size(), model.points.size());
+  PERIMORPH_ASSERT(static_cast<int>(force.size()) == model.dofs.n_owned_nodes() * dim, "{} forces on {} owned nodes",
+                   force.size(), model.dofs.n_owned_nodes());
   for (const auto b : broken) {
     const auto bond = model.bonds.bond(b);
     const Point<dim> pull = BondSpring<dim>(model, bond, at_points).pull();
@@ -34,6 +40,8 @@ void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std:
 template <int dim>
 double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t>& bonds,
                    const std::vector<Point<dim>>& at_points) {
+  PERIMORPH_ASSERT(static_cast<int>(at_points.size()) == model.points.size(), "displacements at {} of {} points",
+                   at_points.size(), model.points.size());
   double energy = 0.;
   for (const auto b : bonds) {
     const auto bond = model.bonds.bond(b);

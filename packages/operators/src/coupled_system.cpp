@@ -4,6 +4,7 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/operators/bond_forces.hpp"
 #include "perimorph/operators/broken_bonds.hpp"
 #include "perimorph/operators/fields.hpp"
@@ -81,6 +82,7 @@ typename CoupledSystem<dim>::Preconditioning CoupledSystem<dim>::preconditioning
 
 template <int dim>
 void CoupledSystem<dim>::apply_load(double load_factor) {
+  PERIMORPH_ASSERT(space_ != nullptr, "load factor {} before anything is assembled", load_factor);
   load_factor_ = load_factor;
   for (const auto& terms : {terms_, load_terms_}) {
     for (const auto& term : terms) term->apply_load(load_factor);
@@ -89,6 +91,7 @@ void CoupledSystem<dim>::apply_load(double load_factor) {
 
 template <int dim>
 std::vector<int> CoupledSystem<dim>::take(const bonds::BondChange& change) {
+  PERIMORPH_ASSERT(space_ != nullptr, "{} bonds break before anything is assembled", change.broken.size());
   for (const auto& term : terms_) term->take(change);
   std::vector<int> changed;
   if (matrix_) changed = matrix_->take(change);
@@ -107,6 +110,8 @@ std::vector<double> CoupledSystem<dim>::sum_of_forces(const ForceTerms<dim>& ter
 
 template <int dim>
 void CoupledSystem<dim>::evaluate(base::ConstField u) {
+  PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) == space_->n_local(),
+                   "{} displacements for {} degrees of freedom", u.size(), space_->n_local());
   const auto timer = profile_.measure(Phase::residual);
   at_points_ = displacements_at_points(model(), u);
   internal_ = sum_of_forces(terms_, u);
@@ -117,6 +122,9 @@ void CoupledSystem<dim>::evaluate(base::ConstField u) {
 
 template <int dim>
 NonlinearSystem::Norms CoupledSystem<dim>::residual(Vector& residual) const {
+  PERIMORPH_ASSERT(has_forces_ && residual.getLocalLength() == space_->n_owned(),
+                   "residual of {} for {} degrees of freedom, evaluated: {}", residual.getLocalLength(),
+                   space_->n_owned(), has_forces_);
   const auto values = residual.getLocalViewHost(Tpetra::Access::OverwriteAll);
   std::vector<double> squares = {0., 0.};
   for (int dof = 0; dof < static_cast<int>(space_->n_owned()); ++dof) {
@@ -132,6 +140,8 @@ NonlinearSystem::Norms CoupledSystem<dim>::residual(Vector& residual) const {
 
 template <int dim>
 void CoupledSystem<dim>::correct(base::Field u, const Vector& correction) {
+  PERIMORPH_ASSERT(correction.getLocalLength() == space_->n_owned(), "correction of {} for {} degrees of freedom",
+                   correction.getLocalLength(), space_->n_owned());
   const auto values = correction.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t dof = 0; dof < space_->n_owned(); ++dof) u[dof] += values(dof, 0);
   space_->expand(u, load_factor_);

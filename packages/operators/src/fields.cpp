@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/elements/strain.hpp"
 
 namespace perimorph::operators {
@@ -69,6 +70,8 @@ void add_bonds_part(const CoupledModel<dim>& model, const std::vector<Point<dim>
 
 template <int dim>
 std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, base::ConstField u) {
+  const auto n_dofs = static_cast<base::ConstField::size_type>(model.dofs.n_nodes()) * dim;
+  PERIMORPH_ASSERT(u.size() == n_dofs, "{} displacements for {} degrees of freedom", u.size(), n_dofs);
   std::vector<Point<dim>> at_points(model.points.size(), Point<dim>::Zero());
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (model.bonds.pairs_of(e).empty()) continue;
@@ -87,6 +90,8 @@ std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, 
 template <int dim>
 ElementFields<dim> element_fields(const CoupledModel<dim>& model, base::ConstField u,
                                   const std::vector<Point<dim>>& at_points) {
+  PERIMORPH_ASSERT(static_cast<int>(at_points.size()) == model.points.size(), "displacements at {} of {} points",
+                   at_points.size(), model.points.size());
   const auto n = static_cast<std::size_t>(model.mesh.n_owned_elements);
   ElementFields<dim> fields{std::vector<double>(n, 0.), std::vector<base::Voigt<dim>>(n, base::Voigt<dim>::Zero())};
   add_local_part(model, u, fields);
@@ -104,6 +109,8 @@ ElementFields<dim> element_fields(const CoupledModel<dim>& model, base::ConstFie
 template <int dim>
 std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, int element, base::ConstField u,
                                                const std::vector<Point<dim>>& at_points) {
+  PERIMORPH_ASSERT(element >= 0 && element < model.mesh.n_owned_elements, "element {} of {} owned ones", element,
+                   model.mesh.n_owned_elements);
   const int first = model.points.first(element), end = model.points.first(element + 1);
   std::vector<base::Voigt<dim>> stress(end - first, base::Voigt<dim>::Zero());
   for (const int p : model.bonds.pairs_of(element)) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lanes.hpp"
+#include "perimorph/base/errors.hpp"
 #include "perimorph/elements/strain.hpp"
 #include "perimorph/operators/stiffness_matrix.hpp"
 
@@ -96,6 +97,9 @@ typename LocalForces<dim>::Group& LocalForces<dim>::group(int n_corners, int n_p
 
 template <int dim>
 void LocalForces<dim>::add_tangent_product(base::ConstField x, base::Field force) const {
+  const auto n = static_cast<base::ConstField::size_type>(model_.dofs.n_nodes()) * dim;
+  PERIMORPH_ASSERT(x.size() == n && force.size() == n, "{} displacements and {} forces on {} degrees of freedom",
+                   x.size(), force.size(), n);
   const double* u = x.getRawPtr();
   double* forces = force.getRawPtr();
   for (const auto& g : groups_) {

@@ -3,16 +3,24 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::operators {
 
 template <int dim>
 MatrixFreeTangent<dim>::MatrixFreeTangent(const discretization::Space<dim>& space, ForceTerms<dim> terms,
                                           std::vector<double> constraints)
-    : space_(space), terms_(std::move(terms)), constraints_(std::move(constraints)), forces_(space.n_local()) {}
+    : space_(space), terms_(std::move(terms)), constraints_(std::move(constraints)), forces_(space.n_local()) {
+  PERIMORPH_ASSERT(constraints_.size() == space.n_owned(), "{} constraints for {} degrees of freedom",
+                   constraints_.size(), space.n_owned());
+}
 
 template <int dim>
 void MatrixFreeTangent<dim>::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
                                    double beta) const {
+  PERIMORPH_ASSERT(x.getNumVectors() == y.getNumVectors(), "{} vectors in, {} out", x.getNumVectors(),
+                   y.getNumVectors());
+  PERIMORPH_ASSERT(&x != &y, "the result would replace the argument while it is read");
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto one = x.getVector(column);
     const auto change = space_.expand_change(*one);
@@ -22,7 +30,7 @@ void MatrixFreeTangent<dim>::apply(const MultiVector& x, MultiVector& y, Teuchos
     const auto own_x = one->getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto own_y = y.getVectorNonConst(column)->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (const int dof : space_.prescribed()) {
-      if (static_cast<std::size_t>(dof) < constraints_.size()) forces_[dof] = constraints_[dof] * own_x(dof, 0);
+      if (static_cast<std::size_t>(dof) < space_.n_owned()) forces_[dof] = constraints_[dof] * own_x(dof, 0);
     }
     for (std::size_t dof = 0; dof < constraints_.size(); ++dof) {
       const double result = alpha * forces_[dof];

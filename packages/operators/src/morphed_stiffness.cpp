@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/elements/strain.hpp"
 
 namespace perimorph::operators {
@@ -22,6 +23,9 @@ void MorphedStiffness<dim>::update(const mesh::Mesh<dim>& mesh, const elements::
                                    const bonds::BondFamilies<dim>& bonds, const morphing::MorphingField<dim>& alpha,
                                    const std::vector<morphing::ElementClass>& classes,
                                    const std::vector<char>& discontinuous) {
+  const auto n = static_cast<std::size_t>(mesh.n_elements());
+  PERIMORPH_ASSERT(classes.size() == n && discontinuous.size() == n, "{} classes and {} flags for {} elements",
+                   classes.size(), discontinuous.size(), n);
   first_.resize(mesh.n_elements(), -1);
   is_zero_.resize(mesh.n_elements(), 0);
   alpha_.resize(points.size(), 0.);

@@ -5,43 +5,19 @@
 #include <algorithm>
 #include <numeric>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::operators {
 
-template <int dim>
-PointBasis<dim>::PointBasis(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
-                            const std::vector<char>& discontinuous)
-    : model_(model), holds_(discontinuous) {
-  const auto& dofs = model.dofs;
-  auto ends = base::gather_on_all(*dofs.owned_dofs()->getComm(), std::vector<base::GlobalId>{dofs.n_owned_nodes()});
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());  // of the ranks' nodes, whose numbers are contiguous
-  const auto rank_of = [&](int node) {
-    return std::upper_bound(ends.begin(), ends.end(), dofs.global_node(node)) - ends.begin();
-  };
-  for (int e = 0; e < model.mesh.n_elements(); ++e) {
-    if (!holds_[e]) continue;
-    const int* nodes = dofs.nodes_of(e);
-    const bool is_one_ranks = std::all_of(nodes, nodes + model.mesh.n_corners(e),
-                                          [&](int node) { return rank_of(node) == rank_of(nodes[0]); });
-    holds_[e] = is_one_ranks && is_suitable(e, space);
-    if (!holds_[e] || nodes[0] >= dofs.n_owned_nodes()) continue;
+namespace {
 
-    const auto& reference = model.points.reference(e);
-    const auto [entry, is_new] = tables_.try_emplace(&reference);
-    if (is_new) {
-      CornerMatrix at_points(reference.n_points, reference.n_corners);
-      for (int q = 0; q < reference.n_points; ++q) at_points.row(q) = reference.shape[q];
-      entry->second = at_points.inverse() - CornerMatrix::Identity(reference.n_points, reference.n_corners);
-    }
-    elements_.push_back({e, &entry->second});
-  }
-}
-
+/// Whether an element has as many points as nodes, no stiffness of its own and no supports.
 template <int dim>
-bool PointBasis<dim>::is_suitable(int element, const discretization::Space<dim>& space) const {
-  if (!model_.elasticity.is_zero(element) || model_.points.count(element) != model_.mesh.n_corners(element))
-    return false;
-  const int* nodes = model_.dofs.nodes_of(element);
-  return std::none_of(nodes, nodes + model_.mesh.n_corners(element), [&](int node) {
+bool is_suitable(const CoupledModel<dim>& model, const discretization::Space<dim>& space, int element) {
+  const int n = model.mesh.n_corners(element);
+  if (!model.elasticity.is_zero(element) || model.points.count(element) != n) return false;
+  const int* nodes = model.dofs.nodes_of(element);
+  return std::none_of(nodes, nodes + n, [&](int node) {
     for (int c = 0; c < dim; ++c) {
       if (space.is_prescribed(node * dim + c)) return true;
     }
@@ -49,25 +25,63 @@ bool PointBasis<dim>::is_suitable(int element, const discretization::Space<dim>&
   });
 }
 
+}  // namespace
+
+template <int dim>
+PointBasis<dim>::PointBasis(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
+                            const std::vector<char>& discontinuous)
+    : unknowns_(model.dofs.owned_dofs()), holds_(discontinuous) {
+  PERIMORPH_ASSERT(static_cast<int>(discontinuous.size()) == model.mesh.n_elements(), "{} flags for {} elements",
+                   discontinuous.size(), model.mesh.n_elements());
+  const auto& dofs = model.dofs;
+  auto ends = base::gather_on_all(*unknowns_->getComm(), std::vector<base::GlobalId>{dofs.n_owned_nodes()});
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());  // of the ranks' nodes, whose numbers are contiguous
+  const auto rank_of = [&](int node) {
+    return std::upper_bound(ends.begin(), ends.end(), dofs.global_node(node)) - ends.begin();
+  };
+  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+    if (!holds_[e]) continue;
+    const int* nodes = dofs.nodes_of(e);
+    const int n = model.mesh.n_corners(e);
+    const bool is_one_ranks =
+        std::all_of(nodes, nodes + n, [&](int node) { return rank_of(node) == rank_of(nodes[0]); });
+    holds_[e] = is_one_ranks && is_suitable(model, space, e);
+    if (!holds_[e] || nodes[0] >= dofs.n_owned_nodes()) continue;
+    elements_.push_back({nodes_.size(), n, &table_of(model.points.reference(e))});
+    nodes_.insert(nodes_.end(), nodes, nodes + n);
+    for (int q = 0; q < n; ++q) points_.push_back(model.points.position(model.points.first(e) + q));
+  }
+}
+
+template <int dim>
+const typename PointBasis<dim>::CornerMatrix& PointBasis<dim>::table_of(
+    const elements::ReferenceElement<dim>& reference) {
+  const auto [entry, is_new] = tables_.try_emplace(&reference);
+  if (is_new) {
+    CornerMatrix at_points(reference.n_points, reference.n_corners);
+    for (int q = 0; q < reference.n_points; ++q) at_points.row(q) = reference.shape[q];
+    entry->second = at_points.inverse() - CornerMatrix::Identity(reference.n_points, reference.n_corners);
+  }
+  return entry->second;
+}
+
 template <int dim>
 void PointBasis<dim>::move_to_points(std::vector<base::Point<dim>>& coordinates) const {
-  for (const auto& [e, added] : elements_) {
-    for (int q = 0; q < model_.points.count(e); ++q) {
-      coordinates[model_.dofs.nodes_of(e)[q]] = model_.points.position(model_.points.first(e) + q);
-    }
-  }
+  PERIMORPH_ASSERT(coordinates.size() * dim == unknowns_->getNodeNumElements(), "{} nodes for {} unknowns",
+                   coordinates.size(), unknowns_->getNodeNumElements());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) coordinates[nodes_[i]] = points_[i];
 }
 
 template <int dim>
 void PointBasis<dim>::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
                             double beta) const {
+  PERIMORPH_ASSERT(&x != &y, "the result would replace the argument while it is read");
   y.update(alpha, x, beta);
   const auto input = x.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto output = y.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t column = 0; column < input.extent(1); ++column) {
-    for (const auto& [e, added] : elements_) {
-      const int* nodes = model_.dofs.nodes_of(e);
-      const int n = model_.mesh.n_corners(e);
+    for (const auto& [first, n, added] : elements_) {
+      const int* nodes = nodes_.data() + first;
       for (int k = 0; k < n; ++k) {
         for (int l = 0; l < n; ++l) {
           const double factor = alpha * (mode == Teuchos::NO_TRANS ? (*added)(k, l) : (*added)(l, k));

@@ -5,6 +5,8 @@
 #include <array>
 #include <numeric>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::operators {
 
 namespace {
@@ -44,6 +46,10 @@ StiffnessMatrix<dim>::StiffnessMatrix(const CoupledModel<dim>& model, const disc
       selection_(selection),
       basis_(std::move(basis)),
       free_(space.n_local(), 1.) {
+  PERIMORPH_ASSERT(constraints.size() == space.n_owned(), "{} constraints for {} degrees of freedom",
+                   constraints.size(), space.n_owned());
+  PERIMORPH_ASSERT(selection_.reach > 0. && selection_.scale > 0., "bonds up to {}, times {}", selection_.reach,
+                   selection_.scale);
   for (const int dof : space.prescribed()) free_[dof] = 0.;
   Couplings<dim> couplings;
   couplings.elements.resize(model.mesh.n_elements());
@@ -53,7 +59,7 @@ StiffnessMatrix<dim>::StiffnessMatrix(const CoupledModel<dim>& model, const disc
   make_matrix();
   for (const auto& term : terms_) term->add_to(*this);
   for (const int dof : space.prescribed()) {
-    if (static_cast<std::size_t>(dof) < constraints.size()) add_diagonal(dof, constraints[dof]);
+    if (static_cast<std::size_t>(dof) < space.n_owned()) add_diagonal(dof, constraints[dof]);
   }
 }
 
@@ -164,6 +170,7 @@ template <int dim>
 void StiffnessMatrix<dim>::add_element(int element, const Eigen::Ref<const Eigen::MatrixXd>& k) {
   const int* nodes = model_.dofs.nodes_of(element);
   const int n = model_.mesh.n_corners(element);
+  PERIMORPH_ASSERT(k.rows() == n * dim && k.cols() == n * dim, "{} x {} numbers for {} nodes", k.rows(), k.cols(), n);
   for (int i = 0; i < n; ++i) {
     if (nodes[i] >= model_.dofs.n_owned_nodes()) continue;
     for (int j = 0; j < n; ++j) add_block(nodes[i], nodes[j], k.template block<dim, dim>(i * dim, j * dim));
@@ -191,6 +198,8 @@ void StiffnessMatrix<dim>::add_between(const bonds::ElementPair& pair, const std
   const int* nodes_a = model_.dofs.nodes_of(a);
   const int* nodes_b = model_.dofs.nodes_of(b);
   const int n_qa = model_.points.count(a), n_qb = model_.points.count(b);
+  PERIMORPH_ASSERT(static_cast<int>(between.size()) == n_qa * n_qb, "{} springs between {} and {} points",
+                   between.size(), n_qa, n_qb);
   for (int l = 0; l < model_.mesh.n_corners(b); ++l) {
     std::array<Block, elements::max_points> half;  // between N_b, for corner l
     for (int qa = 0; qa < n_qa; ++qa) {
@@ -215,6 +224,7 @@ std::vector<int> StiffnessMatrix<dim>::take(const bonds::BondChange& change) {
 
 template <int dim>
 void StiffnessMatrix<dim>::add_diagonal(int owned_dof, double stiffness) {
+  PERIMORPH_ASSERT(owned_dof >= 0 && owned_dof < model_.dofs.n_owned_nodes() * dim, "degree of freedom {}", owned_dof);
   const int row = owned_dof / dim, c = owned_dof % dim;
   const std::size_t width = (first_[row + 1] - first_[row]) * dim;
   values_[first_[row] * dim * dim + c * width + (diagonal_[row] - first_[row]) * dim + c] += stiffness;
@@ -222,6 +232,7 @@ void StiffnessMatrix<dim>::add_diagonal(int owned_dof, double stiffness) {
 
 template <int dim>
 BondSelection short_range(const CoupledModel<dim>& model, const base::Comm& comm, double reach) {
+  PERIMORPH_ASSERT(reach > 0., "bonds up to {}", reach);
   std::vector<double> sums = {0., 0.};  // all bonds, selected bonds
   model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
     if (bond.first_element >= model.mesh.n_owned_elements) return;

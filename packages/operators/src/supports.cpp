@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/operators/stiffness_matrix.hpp"
 
 namespace perimorph::operators {
@@ -10,6 +11,8 @@ template <int dim>
 Supports<dim>::Supports(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
                         const std::vector<char>& discontinuous)
     : constraints(space.n_owned(), 0.), anchors(space.n_owned(), 0.) {
+  PERIMORPH_ASSERT(static_cast<int>(discontinuous.size()) == model.mesh.n_elements(), "{} flags for {} elements",
+                   discontinuous.size(), model.mesh.n_elements());
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     double volume = 0.;
     for (int p = model.points.first(e); p < model.points.first(e + 1); ++p) volume += model.points.weight(p);
@@ -37,6 +40,7 @@ Anchors<dim>::Anchors(const std::vector<double>& stiffness) {
 
 template <int dim>
 void Anchors<dim>::add_tangent_product(base::ConstField x, base::Field force) const {
+  PERIMORPH_ASSERT(x.size() == force.size(), "{} displacements, {} forces", x.size(), force.size());
   for (const auto& [dof, stiffness] : springs_) force[dof] += stiffness * x[dof];
 }
 
@@ -47,6 +51,7 @@ void Anchors<dim>::add_to(StiffnessMatrix<dim>& matrix) const {
 
 template <int dim>
 void Anchors<dim>::scale(double factor) {
+  PERIMORPH_ASSERT(factor > 0., "anchors scaled by {}", factor);
   for (auto& spring : springs_) spring.stiffness *= factor;
 }
 

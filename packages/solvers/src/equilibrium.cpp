@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::solvers {
 
 namespace {
@@ -38,6 +40,8 @@ class LooseAnchors {
 }  // namespace
 
 Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base::Field u, const BalanceTarget& target) {
+  PERIMORPH_ASSERT(target.tolerance > 0. && target.force_scale >= 0., "tolerance {}, force scale {}", target.tolerance,
+                   target.force_scale);
   constexpr int max_corrections = 10;
   // A severed body has no reactions left that its residual could relate to: then these shares of the largest reaction
   // so far count, and of the largest that a first guess took, which moves the supports alone.

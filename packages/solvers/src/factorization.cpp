@@ -39,7 +39,10 @@ Eigen::SparseMatrix<double> entries_of(const Matrix& matrix) {
 class Inverse : public Operator {
  public:
   explicit Inverse(const Matrix& matrix)
-      : rows_(matrix.getRowMap()), import_(rows_, on_root(*rows_)), collected_(import_.getTargetMap(), 1) {
+      : rows_(matrix.getRowMap()),
+        import_(rows_, on_root(*rows_)),
+        collected_(import_.getTargetMap(), 1),
+        solution_(rows_, 1) {
     Matrix whole(import_.getTargetMap(), 0);
     whole.doImport(matrix, import_, Tpetra::INSERT);
     whole.fillComplete();
@@ -59,11 +62,12 @@ class Inverse : public Operator {
   Teuchos::RCP<const Map> getDomainMap() const override { return rows_; }
   Teuchos::RCP<const Map> getRangeMap() const override { return rows_; }
 
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, double, double) const override {
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, double alpha, double beta) const override {
     for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
       collected_.doImport(*x.getVector(column), import_, Tpetra::INSERT);
       if (rows_->getComm()->getRank() == 0) solve_in_place();
-      y.getVectorNonConst(column)->doExport(collected_, import_, Tpetra::INSERT);
+      solution_.doExport(collected_, import_, Tpetra::INSERT);
+      y.getVectorNonConst(column)->update(alpha, solution_, beta);
     }
   }
 
@@ -77,11 +81,15 @@ class Inverse : public Operator {
   Teuchos::RCP<const Map> rows_;
   Tpetra::Import<> import_;
   mutable MultiVector collected_;  ///< on rank 0
+  mutable MultiVector solution_;
   Factors factors_;
 };
 
 }  // namespace
 
-Factorization::Factorization(const Teuchos::RCP<Matrix>& matrix) : operator_(Teuchos::rcp(new Inverse(*matrix))) {}
+Factorization::Factorization(const Teuchos::RCP<Matrix>& matrix) {
+  PERIMORPH_ASSERT(!matrix.is_null(), "there is no matrix");
+  operator_ = Teuchos::rcp(new Inverse(*matrix));
+}
 
 }  // namespace perimorph::solvers

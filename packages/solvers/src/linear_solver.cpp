@@ -41,6 +41,9 @@ class InBasis : public Operator {
 void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
                                 const Teuchos::RCP<Matrix>& preconditioner_matrix, const NearNullSpace& near_null_space,
                                 const Teuchos::RCP<const Operator>& basis, std::optional<base::NodeWeights> from_old) {
+  PERIMORPH_ASSERT(!linear_operator.is_null() && !preconditioner_matrix.is_null(), "an operator is missing");
+  PERIMORPH_ASSERT(linear_operator->getDomainMap()->isSameAs(*preconditioner_matrix->getRowMap()),
+                   "the preconditioner's matrix has other unknowns");
   operator_ = linear_operator;
   preconditioner_matrix_ = preconditioner_matrix;
   near_null_space_ = near_null_space;
@@ -64,6 +67,10 @@ void LinearSolver::note_change(const std::vector<int>& nodes) {
 }
 
 LinearSolver::Outcome LinearSolver::solve(const MultiVector& right_hand_side, MultiVector& solution, double target) {
+  PERIMORPH_ASSERT(!operator_.is_null(), "there is no operator yet");
+  PERIMORPH_ASSERT(target >= 0., "target {}", target);
+  PERIMORPH_ASSERT(right_hand_side.getNumVectors() == 1 && solution.getNumVectors() == 1,
+                   "{} right-hand sides, {} solutions", right_hand_side.getNumVectors(), solution.getNumVectors());
   Teuchos::Array<double> norm(1);
   right_hand_side.norm2(norm());
   solution.putScalar(0.);

@@ -120,6 +120,8 @@ struct Multigrid::Hierarchy {
 
 template <int dim>
 NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Point<dim>>& coordinates) {
+  PERIMORPH_ASSERT(coordinates.size() * dim == matrix.getNodeNumRows(), "{} nodes for {} rows", coordinates.size(),
+                   matrix.getNodeNumRows());
   using Map = Tpetra::Map<>;
   constexpr int n_rotations = dim * (dim - 1) / 2;
   const auto dof_map = matrix.getRowMap();
@@ -166,6 +168,7 @@ Multigrid::Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& ne
 Multigrid::~Multigrid() = default;
 
 void Multigrid::refresh() {
+  PERIMORPH_ASSERT(hierarchy_ != nullptr, "what has moved to another matrix cannot be refreshed");
   // Tpetra leaves out of a product's pattern what is zero by the values at hand. With others the pattern may be too
   // small, and it throws on the rank where that is so, while the others wait for it: the coarse matrices get new
   // patterns.
@@ -179,6 +182,7 @@ void Multigrid::refresh() {
 }
 
 void Multigrid::refresh_finest(const std::vector<int>& nodes) {
+  PERIMORPH_ASSERT(std::is_sorted(nodes.begin(), nodes.end()), "{} nodes are not in ascending order", nodes.size());
   if (has_own_cycle_) own_cycle_->refresh_finest(nodes);
 }
 
@@ -196,6 +200,8 @@ void Multigrid::make_own_cycle() {
 
 void Multigrid::move_to(const Teuchos::RCP<Matrix>& matrix, const base::NodeWeights& from_old) {
   PERIMORPH_ASSERT(has_own_cycle_, "only our own cycle can be moved");
+  PERIMORPH_ASSERT(from_old.size() * dim_ == matrix->getNodeNumRows(), "{} nodes for {} rows", from_old.size(),
+                   matrix->getNodeNumRows());
   hierarchy_.reset();  // of the old matrix; what is still needed of it is in the levels
   CycleLevel& finest = levels_.front();
   finest.matrix = matrix;

@@ -44,7 +44,9 @@ struct Block {
     return {Teuchos::rcp(new operators::LocalForces<3>(coupled())),
             Teuchos::rcp(new operators::BondForces<3>(coupled()))};
   }
-  operators::StiffnessMatrix<3> matrix() const { return {coupled(), space, terms(), {}}; }
+  operators::StiffnessMatrix<3> matrix() const {
+    return {coupled(), space, terms(), std::vector<double>(space.n_owned(), 0.)};
+  }
 };
 
 Eigen::MatrixXd dense(const Tpetra::CrsMatrix<double>& matrix) {

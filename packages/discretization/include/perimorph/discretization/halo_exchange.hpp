@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/base/parallel.hpp"
 
 namespace perimorph::discretization {
@@ -16,6 +17,7 @@ class HaloExchange {
   /// Overwrites the values of items owned elsewhere, one value an item. Collective.
   template <class T>
   void update(std::vector<T>& values) const {
+    PERIMORPH_ASSERT(values.size() == n_items_, "{} values for {} items", values.size(), n_items_);
     std::vector<std::vector<T>> outgoing(sent_.size());
     for (std::size_t r = 0; r < sent_.size(); ++r) {
       for (const int item : sent_[r]) outgoing[r].push_back(values[item]);
@@ -28,6 +30,7 @@ class HaloExchange {
 
  private:
   const base::Comm& comm_;
+  std::size_t n_items_;
   std::vector<std::vector<int>> sent_, received_;  ///< local items by rank
 };
 

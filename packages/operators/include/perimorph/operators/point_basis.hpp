@@ -23,7 +23,8 @@ class PointBasis : public Tpetra::Operator<double> {
   using MultiVector = Tpetra::MultiVector<double>;
   using Map = Tpetra::Map<>;
 
-  /// Collective. The model is read again and must outlive this.
+  /// Collective. It keeps what it needs of the arguments.
+  /// @param discontinuous per local element, right in the halo too
   PointBasis(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
              const std::vector<char>& discontinuous);
 
@@ -34,8 +35,8 @@ class PointBasis : public Tpetra::Operator<double> {
   /// @param coordinates of the owned nodes, [length]
   void move_to_points(std::vector<base::Point<dim>>& coordinates) const;
 
-  Teuchos::RCP<const Map> getDomainMap() const override { return model_.dofs.owned_dofs(); }
-  Teuchos::RCP<const Map> getRangeMap() const override { return model_.dofs.owned_dofs(); }
+  Teuchos::RCP<const Map> getDomainMap() const override { return unknowns_; }
+  Teuchos::RCP<const Map> getRangeMap() const override { return unknowns_; }
   bool hasTransposeApply() const override { return true; }
 
   /// y = beta y + alpha T x. Local.
@@ -45,22 +46,25 @@ class PointBasis : public Tpetra::Operator<double> {
  private:
   using CornerMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, mesh::max_corners, mesh::max_corners>;
 
-  CoupledModel<dim> model_;
+  Teuchos::RCP<const Map> unknowns_;
   std::vector<char> holds_;
   struct Element {
-    int element;                ///< whose nodes are owned
+    std::size_t first;  ///< in nodes_
+    int n_nodes;
     const CornerMatrix* added;  ///< T - 1 for one component
   };
-  std::vector<Element> elements_;
+  std::vector<Element> elements_;         ///< those whose nodes are owned
+  std::vector<int> nodes_;                ///< theirs
+  std::vector<base::Point<dim>> points_;  ///< positions of the points that stand for these nodes, [length]
   std::map<const elements::ReferenceElement<dim>*, CornerMatrix> tables_;
 
-  bool is_suitable(int element, const discretization::Space<dim>& space) const;
+  const CornerMatrix& table_of(const elements::ReferenceElement<dim>& reference);
 };
 
 /// The unknowns of a topology from those of the one before, by owned node: those that nodes have parted from, and for
 /// those that have become a point's the shape functions there. A node and the one that it has parted from have the same
 /// owner. Local.
-/// @param basis null: nodal displacements; a basis of the old topology may have outlived its model
+/// @param basis, old_basis null: nodal displacements
 template <int dim>
 base::NodeWeights weights_of_old_unknowns(const CoupledModel<dim>& model, const PointBasis<dim>* basis,
                                           const discretization::DofMap<dim>& old_dofs,
