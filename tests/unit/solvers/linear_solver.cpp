@@ -173,6 +173,20 @@ TEST_F(LinearSolver, AFactorizationSolvesWhereMultigridCannotBeSetUp) {
   EXPECT_LE(residual(), 1.01e-10);
 }
 
+TEST_F(LinearSolver, AFactorizationAddsToAScaledVector) {
+  const solvers::Factorization factorization(matrix);
+  MultiVector product(b.getMap(), 1);
+  x.putScalar(3.);
+
+  factorization.apply_inverse()->apply(b, x, Teuchos::NO_TRANS, -2., 0.5);  // 1.5 - 2 A^-1 b
+
+  const auto values = x.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t i = 0; i < values.extent(0); ++i) values(i, 0) = (1.5 - values(i, 0)) / 2.;
+  matrix->apply(x, product);
+  product.update(-1., b, 1.);
+  EXPECT_LT(norm(product), 1e-6 * norm(b));  // it is shifted by 1e-11 of the diagonal
+}
+
 TEST_F(LinearSolver, AFloatingBodyIsSolvedForForcesInBalance) {
   const CoupledBody floating(hybrid(false));
   solvers::LinearSolver solver({}, profile);
