@@ -97,11 +97,10 @@ void Body<dim>::move_to_new_numbering() {
 template <int dim>
 void Body<dim>::assemble() {
   const auto timer = profile_.measure(Phase::assemble);
-  system_.assemble();
-  auto made_from = system_.preconditioning();
-  equilibrium_.linear_solver().set_operator(system_.tangent(), made_from.matrix,
-                                            solvers::rigid_body_modes<dim>(*made_from.matrix, made_from.coordinates),
-                                            made_from.basis, std::move(made_from.from_old));
+  auto source = system_.assemble();
+  equilibrium_.linear_solver().set_operator(system_.tangent(), source.matrix,
+                                            solvers::rigid_body_modes<dim>(*source.matrix, source.coordinates),
+                                            source.basis, std::move(source.from_old));
   topology_.drop_old_dofs();
 }
 

@@ -47,37 +47,39 @@ void CoupledSystem<dim>::make_terms(const Supports<dim>& supports) {
 }
 
 template <int dim>
-void CoupledSystem<dim>::assemble() {
-  space_ = std::make_unique<discretization::Space<dim>>(topology_.dofs(), dirichlet_);
-  const Supports<dim> supports(model(), *space_, topology_.discontinuous());
-  make_terms(supports);
-  tangent_ = Teuchos::rcp(new MatrixFreeTangent<dim>(*space_, terms_, supports.constraints));
+void CoupledSystem<dim>::make_matrices(const Supports<dim>& supports) {
   const bool is_short_range = options_.preconditioner_matrix == PreconditionerMatrix::short_range;
   const auto make_matrix = [&](const BondSelection& selection, const Teuchos::RCP<const PointBasis<dim>>& basis) {
     return std::make_unique<StiffnessMatrix<dim>>(model(), *space_, terms_, supports.constraints, selection, basis);
   };
-  old_basis_ = basis_;
   if (is_short_range) {
     const auto selection = operators::short_range(model(), comm_, options_.short_range_cut_off);
     basis_ = Teuchos::rcp(new PointBasis<dim>(model(), *space_, topology_.discontinuous()));
     short_range_ = make_matrix(selection, basis_);
   }
   if (options_.operator_form == OperatorForm::crs || !is_short_range) matrix_ = make_matrix(all_bonds, Teuchos::null);
-  has_forces_ = false;
 }
 
 template <int dim>
-typename CoupledSystem<dim>::Preconditioning CoupledSystem<dim>::preconditioning() {
-  Preconditioning result{(short_range_ ? short_range_ : matrix_)->matrix(), basis_, {}, std::nullopt};
+typename CoupledSystem<dim>::PreconditionerSource CoupledSystem<dim>::assemble() {
+  const bool is_first = tangent_.is_null();
+  const auto old_basis = basis_;
+  has_forces_ = false;
+  space_ = std::make_unique<discretization::Space<dim>>(topology_.dofs(), dirichlet_);
+  const Supports<dim> supports(model(), *space_, topology_.discontinuous());
+  make_terms(supports);
+  tangent_ = Teuchos::rcp(new MatrixFreeTangent<dim>(*space_, terms_, supports.constraints));
+  make_matrices(supports);
+
+  PreconditionerSource source{(short_range_ ? short_range_ : matrix_)->matrix(), basis_, {}, std::nullopt};
   for (int n = 0; n < topology_.dofs().n_owned_nodes(); ++n) {
-    result.coordinates.push_back(topology_.mesh().coordinates[topology_.dofs().reference_node(n)]);
+    source.coordinates.push_back(topology_.mesh().coordinates[topology_.dofs().reference_node(n)]);
   }
-  if (!basis_.is_null()) basis_->move_to_points(result.coordinates);
-  if (was_assembled_) {
-    result.from_old = weights_of_old_unknowns(model(), basis_.get(), topology_.old_dofs(), old_basis_.get());
+  if (!basis_.is_null()) basis_->move_to_points(source.coordinates);
+  if (!is_first) {
+    source.from_old = weights_of_old_unknowns(model(), basis_.get(), topology_.old_dofs(), old_basis.get());
   }
-  was_assembled_ = true;
-  return result;
+  return source;
 }
 
 template <int dim>

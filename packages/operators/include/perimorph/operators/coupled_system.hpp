@@ -39,8 +39,16 @@ class CoupledSystem : public NonlinearSystem {
   /// E(x) follows alpha, bonds and classes of the topology. Local.
   void follow_morphing();
 
+  /// What a preconditioner is made from.
+  struct PreconditionerSource {
+    Teuchos::RCP<Tpetra::CrsMatrix<double>> matrix;
+    Teuchos::RCP<const PointBasis<dim>> basis;  ///< of the matrix's unknowns; null: nodal displacements
+    std::vector<base::Point<dim>> coordinates;  ///< of the matrix's nodes, [length]
+    std::optional<base::NodeWeights> from_old;  ///< its nodes from those of the one before, if there was one
+  };
+
   /// Makes terms and matrices of the present topology. Collective.
-  void assemble();
+  PreconditionerSource assemble();
 
   /// From now on this load factor holds. Local.
   void apply_load(double load_factor);
@@ -57,16 +65,6 @@ class CoupledSystem : public NonlinearSystem {
   void load_derivative(Vector& derivative) const override;
   void scale_anchors(double factor) override { anchors_->scale(factor); }
   const Teuchos::RCP<const Tpetra::Map<>>& unknowns() const override { return space_->dofs().owned_dofs(); }
-
-  /// What the preconditioner is made from, as of the last assemble().
-  struct Preconditioning {
-    Teuchos::RCP<Tpetra::CrsMatrix<double>> matrix;
-    Teuchos::RCP<const PointBasis<dim>> basis;  ///< of the matrix's unknowns; null: nodal displacements
-    std::vector<base::Point<dim>> coordinates;  ///< of the matrix's nodes, [length]
-    std::optional<base::NodeWeights> from_old;  ///< its nodes from those of the one before, if there was one
-  };
-  /// Local; to be taken once after each assemble().
-  Preconditioning preconditioning();
 
   // All local.
   CoupledModel<dim> model() const;
@@ -94,8 +92,7 @@ class CoupledSystem : public NonlinearSystem {
   Teuchos::RCP<MatrixFreeTangent<dim>> tangent_;
   // As a matrix, and the short-range matrix; null if neither operator nor preconditioner needs them.
   std::unique_ptr<StiffnessMatrix<dim>> matrix_, short_range_;
-  Teuchos::RCP<const PointBasis<dim>> basis_, old_basis_;  ///< of the short-range matrix, now and before
-  bool was_assembled_ = false;
+  Teuchos::RCP<const PointBasis<dim>> basis_;  ///< of the short-range matrix
 
   std::vector<base::Point<dim>> at_points_;
   std::vector<double> internal_, loads_;
@@ -103,6 +100,7 @@ class CoupledSystem : public NonlinearSystem {
   double load_factor_ = 0.;
 
   void make_terms(const Supports<dim>& supports);
+  void make_matrices(const Supports<dim>& supports);
   std::vector<double> sum_of_forces(const ForceTerms<dim>& terms, base::ConstField u) const;
 };
 
