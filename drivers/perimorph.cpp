@@ -9,6 +9,8 @@
 #include <filesystem>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/cases/case.hpp"
+#include "perimorph/cases/reference.hpp"
 #include "perimorph/fracture/run.hpp"
 
 namespace {
@@ -30,11 +32,11 @@ struct Arguments {
 };
 
 /// Every rank reads it; a mistake in it is an error on all ranks.
-fracture::Case read_case(const base::Comm& comm, const Arguments& arguments) {
-  fracture::Case input;
+cases::Case read_case(const base::Comm& comm, const Arguments& arguments) {
+  cases::Case input;
   for (const bool is_first : {true, false}) {  // it tells the mistakes, and to find them may take reading the mesh
     base::on_all_ranks(comm, [&] {
-      if (is_first == (comm.getRank() == 0)) input = fracture::read_case(arguments.case_file, arguments.overrides);
+      if (is_first == (comm.getRank() == 0)) input = cases::read_case(arguments.case_file, arguments.overrides);
     });
   }
   return input;
@@ -79,13 +81,13 @@ int main(int argc, char** argv) {
   };
   try {
     if (app.got_subcommand(params)) {
-      const auto text = markdown   ? fracture::describe_schema_in_markdown()
-                        : relax_ng ? fracture::describe_schema_in_relax_ng()
-                                   : fracture::describe_schema();
+      const auto text = markdown   ? cases::describe_schema_in_markdown()
+                        : relax_ng ? cases::describe_schema_in_relax_ng()
+                                   : cases::describe_schema();
       if (comm->getRank() == 0) std::fputs(text.c_str(), stdout);
       return 0;
     }
-    const fracture::Case input = read_case(*comm, arguments);
+    const cases::Case input = read_case(*comm, arguments);
     if (app.got_subcommand(check)) {
       fracture::check(comm, input, arguments.talk());
     } else {

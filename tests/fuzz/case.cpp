@@ -1,6 +1,6 @@
 // Any bytes are a case or the user's mistake: no crash, no other exception, no huge allocation.
 
-#include "perimorph/fracture/case.hpp"
+#include "perimorph/cases/case.hpp"
 
 #include <Kokkos_Core.hpp>
 #include <algorithm>
@@ -29,8 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const CaseFile input;
   const std::string& file = input.with(data, size);
   try {
-    const auto result = perimorph::fracture::read_case(file);
-    if (!(result.youngs_modulus > 0.) || result.increments < 1) std::abort();
+    const auto result = perimorph::cases::read_case(file);
+    if (!(result.material.youngs_modulus > 0.) || result.loading.increments < 1) std::abort();
   } catch (const perimorph::base::UserError& error) {
     const std::string message = error.what();
     const bool printable = std::none_of(message.begin(), message.end(),

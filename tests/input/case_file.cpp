@@ -3,11 +3,12 @@
 #include <Teuchos_XMLParameterListHelpers.hpp>
 
 #include "case_fixture.hpp"
+#include "perimorph/cases/reference.hpp"
 
 namespace {
 
-using perimorph::fracture::Case;
-using perimorph::fracture::read_case;
+using perimorph::cases::Case;
+using perimorph::cases::read_case;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -19,23 +20,23 @@ TEST_F(CaseFile, ValuesArriveInTheCase) {
 
   EXPECT_EQ(result.name, "plate");
   EXPECT_EQ(result.directory, folder_.string());
-  EXPECT_EQ(result.mesh_file, (folder_ / "plate.msh").string());
-  EXPECT_EQ(result.elastic_model, perimorph::fracture::ElasticModel::plane_stress);
-  EXPECT_EQ(result.critical_stretch, 0.05);
-  EXPECT_FALSE(result.fracture_energy);
-  ASSERT_EQ(result.seeds.size(), 2u);
-  EXPECT_THAT(result.seeds[0].center, ElementsAre(100., 10.));
-  EXPECT_EQ(result.seeds[1].shape, perimorph::fracture::SeedShape::box);
-  EXPECT_EQ(result.seeds[1].rim, 2.);
+  EXPECT_EQ(result.mesh.file, (folder_ / "plate.msh").string());
+  EXPECT_EQ(result.material.elastic_model, perimorph::materials::ElasticModel::plane_stress);
+  EXPECT_EQ(result.material.critical_stretch, 0.05);
+  EXPECT_FALSE(result.material.fracture_energy);
+  ASSERT_EQ(result.morphing.seeds.size(), 2u);
+  EXPECT_THAT(result.morphing.seeds[0].center, ElementsAre(100., 10.));
+  EXPECT_EQ(result.morphing.seeds[1].shape, perimorph::cases::SeedShape::box);
+  EXPECT_EQ(result.morphing.seeds[1].rim, 2.);
   ASSERT_EQ(result.pre_cracks.size(), 1u);
   EXPECT_THAT(result.pre_cracks[0].points, ElementsAre(0., 0., 5., 0.));
-  ASSERT_EQ(result.displacements.size(), 3u);
-  EXPECT_EQ(result.displacements[1].group, "right");
-  EXPECT_EQ(result.displacements[1].component, 0);
-  EXPECT_EQ(result.displacements[1].rate, -0.02);
-  EXPECT_THAT(result.tractions.at(0).rate, ElementsAre(0., -1.));
-  EXPECT_EQ(result.increments, 100);
-  EXPECT_EQ(result.muelu.get<int>("coarse: max size"), 50);
+  ASSERT_EQ(result.boundary_conditions.displacements.size(), 3u);
+  EXPECT_EQ(result.boundary_conditions.displacements[1].node_set, "right");
+  EXPECT_EQ(result.boundary_conditions.displacements[1].component, 0);
+  EXPECT_EQ(result.boundary_conditions.displacements[1].value.rate, -0.02);
+  EXPECT_THAT(result.boundary_conditions.tractions.at(0).rate, ElementsAre(0., -1.));
+  EXPECT_EQ(result.loading.increments, 100);
+  EXPECT_EQ(result.numerical.solver.muelu.get<int>("coarse: max size"), 50);
 }
 
 TEST_F(CaseFile, ValuesOfThreeDimensionsArriveInTheCase) {
@@ -50,39 +51,39 @@ TEST_F(CaseFile, ValuesOfThreeDimensionsArriveInTheCase) {
                             "Morphing/Seeds/front/Outer Radius=3"});
 
   EXPECT_EQ(result.dimension, 3);
-  EXPECT_EQ(result.elastic_model, perimorph::fracture::ElasticModel::three_dimensional);
-  EXPECT_EQ(result.poissons_ratio, 0.25);
-  EXPECT_EQ(result.seeds[0].shape, perimorph::fracture::SeedShape::ball);
-  EXPECT_EQ(result.seeds[2].shape, perimorph::fracture::SeedShape::cylinder);
-  EXPECT_THAT(result.seeds[2].end, ElementsAre(0., 0., 9.));
-  EXPECT_EQ(result.pre_cracks[0].shape, perimorph::fracture::PreCrackShape::disc);
+  EXPECT_EQ(result.material.elastic_model, perimorph::materials::ElasticModel::three_dimensional);
+  EXPECT_EQ(result.material.poissons_ratio, 0.25);
+  EXPECT_EQ(result.morphing.seeds[0].shape, perimorph::cases::SeedShape::ball);
+  EXPECT_EQ(result.morphing.seeds[2].shape, perimorph::cases::SeedShape::cylinder);
+  EXPECT_THAT(result.morphing.seeds[2].end, ElementsAre(0., 0., 9.));
+  EXPECT_EQ(result.pre_cracks[0].shape, perimorph::cases::PreCrackShape::disc);
   EXPECT_THAT(result.pre_cracks[0].normal, ElementsAre(0., 2., 0.));
   EXPECT_EQ(result.pre_cracks[0].radius, 4.);
-  EXPECT_EQ(result.pre_cracks[1].shape, perimorph::fracture::PreCrackShape::polygon);
+  EXPECT_EQ(result.pre_cracks[1].shape, perimorph::cases::PreCrackShape::polygon);
   EXPECT_EQ(result.pre_cracks[1].points.size(), 12u);
-  EXPECT_EQ(result.displacements[2].component, 2);
-  EXPECT_THAT(result.body_force_constant, ElementsAre(0., 0., 0.));
+  EXPECT_EQ(result.boundary_conditions.displacements[2].component, 2);
+  EXPECT_THAT(result.boundary_conditions.body_force_constant, ElementsAre(0., 0., 0.));
 }
 
 TEST_F(CaseFile, DefaultsAreFilledIn) {
   const Case result = read(valid);
 
   EXPECT_EQ(result.dimension, 2);
-  EXPECT_EQ(result.seeds[0].shape, perimorph::fracture::SeedShape::ball);
-  EXPECT_EQ(result.growth_inner_radius, 3.);  // 2 horizons of 1.5
-  EXPECT_EQ(result.growth_outer_radius, 6.);
-  EXPECT_EQ(result.short_range_cut_off, 0.52 * 1.5);
-  EXPECT_EQ(read(valid_in_3d()).short_range_cut_off, 0.45 * 1.5);
-  EXPECT_EQ(result.displacements[0].rate, 0.);
-  EXPECT_THAT(result.tractions.at(0).constant, ElementsAre(0., 0.));
-  EXPECT_THAT(result.body_force_rate, ElementsAre(0., 0.));
-  EXPECT_EQ(result.max_damage_iterations, 20000);
-  EXPECT_EQ(result.max_zone_growths, 5000);
-  EXPECT_EQ(result.tolerance, 1e-6);
-  EXPECT_EQ(result.max_cg_iterations, 500);
-  EXPECT_EQ(result.damage_tolerance, 1e-4);
-  EXPECT_EQ(result.renewal_cost, 12.);
-  EXPECT_EQ(result.output_every, 1);
+  EXPECT_EQ(result.morphing.seeds[0].shape, perimorph::cases::SeedShape::ball);
+  EXPECT_EQ(result.numerical.growth_inner_radius, 3.);  // 2 horizons of 1.5
+  EXPECT_EQ(result.numerical.growth_outer_radius, 6.);
+  EXPECT_EQ(result.numerical.short_range_cut_off, 0.52 * 1.5);
+  EXPECT_EQ(read(valid_in_3d()).numerical.short_range_cut_off, 0.45 * 1.5);
+  EXPECT_EQ(result.boundary_conditions.displacements[0].value.rate, 0.);
+  EXPECT_THAT(result.boundary_conditions.tractions.at(0).constant, ElementsAre(0., 0.));
+  EXPECT_THAT(result.boundary_conditions.body_force_rate, ElementsAre(0., 0.));
+  EXPECT_EQ(result.loading.max_damage_iterations, 20000);
+  EXPECT_EQ(result.loading.max_zone_growths, 5000);
+  EXPECT_EQ(result.numerical.tolerance, 1e-6);
+  EXPECT_EQ(result.numerical.solver.max_iterations, 500);
+  EXPECT_EQ(result.numerical.damage_tolerance, 1e-4);
+  EXPECT_EQ(result.numerical.solver.renewal_cost, 12.);
+  EXPECT_EQ(result.output.every, 1);
 }
 
 TEST_F(CaseFile, ResolvedListIsCompleteAndHasNoTemplates) {
@@ -109,15 +110,15 @@ TEST_F(CaseFile, ResolvedListReadBackGivesItself) {
 TEST_F(CaseFile, ReactionsDefaultToEachMovedGroupOnce) {
   const Case result = read(replaced(valid, R"xml({left, right})xml", "{}"));
 
-  EXPECT_THAT(result.reactions, ElementsAre("left", "right"));
+  EXPECT_THAT(result.output.reactions, ElementsAre("left", "right"));
 }
 
 TEST_F(CaseFile, PoissonsRatioNearTheRightOneIsTakenAsExact) {
   for (const char* ratio : {"0.333", "0.3333", "0.33333333", "0.3336"}) {
-    EXPECT_EQ(read(replaced(valid, "0.3333", ratio)).poissons_ratio, 1. / 3.) << ratio;
+    EXPECT_EQ(read(replaced(valid, "0.3333", ratio)).material.poissons_ratio, 1. / 3.) << ratio;
   }
   const std::string plane_strain = replaced(valid, "Plane Stress", "Plane Strain");
-  EXPECT_EQ(read(replaced(plane_strain, "0.3333", "0.2501")).poissons_ratio, 0.25);
+  EXPECT_EQ(read(replaced(plane_strain, "0.3333", "0.2501")).material.poissons_ratio, 0.25);
 }
 
 TEST_F(CaseFile, NothingNeedsToBreakAndNoZoneIsNeeded) {
@@ -129,23 +130,23 @@ TEST_F(CaseFile, NothingNeedsToBreakAndNoZoneIsNeeded) {
 
   const Case result = read(text);
 
-  EXPECT_TRUE(result.seeds.empty());
-  EXPECT_FALSE(result.critical_stretch);
-  EXPECT_FALSE(result.fracture_energy);
+  EXPECT_TRUE(result.morphing.seeds.empty());
+  EXPECT_FALSE(result.material.critical_stretch);
+  EXPECT_FALSE(result.material.fracture_energy);
 }
 
 TEST_F(CaseFile, CommentsAndDeclarationAndByteOrderMarkAreFine) {
-  EXPECT_EQ(read("\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- a plate -->\n" + valid).increments, 100);
+  EXPECT_EQ(read("\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- a plate -->\n" + valid).loading.increments, 100);
 }
 
 TEST_F(CaseFile, AbsoluteMeshPathStaysAsItIs) {
-  EXPECT_EQ(read(replaced(valid, "plate.msh", "/data/plate.msh")).mesh_file, "/data/plate.msh");
+  EXPECT_EQ(read(replaced(valid, "plate.msh", "/data/plate.msh")).mesh.file, "/data/plate.msh");
 }
 
 TEST(CaseInput, NotchedBeamIsValid) {
   const Case beam = read_case(PERIMORPH_SOURCE_DIR "/inputs/notched_beam/notched_beam.xml");
-  EXPECT_EQ(beam.increments, 100);
-  EXPECT_EQ(beam.displacements.size(), 5u);
+  EXPECT_EQ(beam.loading.increments, 100);
+  EXPECT_EQ(beam.boundary_conditions.displacements.size(), 5u);
 }
 
 // --- overrides ---
@@ -155,21 +156,21 @@ TEST_F(CaseFile, OverrideReplacesAddsAndCreates) {
                                    "Title=a=b", "Morphing/Seeds/all/Shape=Everything", "Output/Reactions={top}",
                                    "Morphing/Growth Outer Radius=5", "Loading/Increments=8"});
 
-  EXPECT_EQ(result.increments, 8);
-  EXPECT_EQ(result.tolerance, 1e-6);
-  EXPECT_EQ(result.youngs_modulus, 2e5);
+  EXPECT_EQ(result.loading.increments, 8);
+  EXPECT_EQ(result.numerical.tolerance, 1e-6);
+  EXPECT_EQ(result.material.youngs_modulus, 2e5);
   EXPECT_EQ(result.title, "a=b");
-  ASSERT_EQ(result.seeds.size(), 3u);
-  EXPECT_EQ(result.seeds[2].name, "all");
-  EXPECT_THAT(result.reactions, ElementsAre("top"));
-  EXPECT_EQ(result.growth_outer_radius, 7.5);
+  ASSERT_EQ(result.morphing.seeds.size(), 3u);
+  EXPECT_EQ(result.morphing.seeds[2].name, "all");
+  EXPECT_THAT(result.output.reactions, ElementsAre("top"));
+  EXPECT_EQ(result.numerical.growth_outer_radius, 7.5);
 }
 
 TEST_F(CaseFile, OverrideInAFreeListTakesTheTypeOfTheFileOrOfItsLooks) {
   const Teuchos::ParameterList muelu =
       read(valid, {"Solver/MueLu/coarse: max size=9", "Solver/MueLu/verbosity=none", "Solver/MueLu/rap=true",
                    "Solver/MueLu/smoother: params/degree=2", "Solver/MueLu/drop=0.5"})
-          .muelu;
+          .numerical.solver.muelu;
 
   EXPECT_EQ(muelu.get<int>("coarse: max size"), 9);
   EXPECT_EQ(muelu.get<std::string>("verbosity"), "none");
@@ -180,7 +181,7 @@ TEST_F(CaseFile, OverrideInAFreeListTakesTheTypeOfTheFileOrOfItsLooks) {
 
 TEST_F(CaseFile, OverrideMendsAMistakeOfTheFile) {
   const std::string wrong = replaced(valid, horizon, R"xml(name="Horizon" type="int" value="abc")xml");
-  EXPECT_EQ(read(wrong, {"Peridynamics/Horizon=2"}).horizon, 2.);
+  EXPECT_EQ(read(wrong, {"Peridynamics/Horizon=2"}).peridynamics.horizon, 2.);
 }
 
 struct Override {
@@ -237,11 +238,11 @@ void expect_documented(const Teuchos::ParameterList& list, const std::string& te
 }
 
 TEST(CaseSchema, EveryParameterIsDocumentedAndHasARule) {
-  expect_documented(perimorph::fracture::case_schema(), perimorph::fracture::describe_schema(), "");
+  expect_documented(perimorph::cases::case_schema(), perimorph::cases::describe_schema(), "");
 }
 
 TEST(CaseSchema, ReferenceSaysTypeDefaultRangeAndUnit) {
-  const std::string text = perimorph::fracture::describe_schema();
+  const std::string text = perimorph::cases::describe_schema();
   EXPECT_THAT(text,
               HasSubstr("/Material/Young's Modulus\n    double; required, such as 30000; allowed is a number > 0\n"
                         "    E [stress]."));
@@ -251,7 +252,7 @@ TEST(CaseSchema, ReferenceSaysTypeDefaultRangeAndUnit) {
 }
 
 TEST(CaseSchema, WrongDefaultIsRefusedByTeuchosToo) {
-  Teuchos::ParameterList schema = perimorph::fracture::case_schema();
+  Teuchos::ParameterList schema = perimorph::cases::case_schema();
   EXPECT_ANY_THROW(schema.sublist("Solver").set("Tolerance", 2.));
 }
 

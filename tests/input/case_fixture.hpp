@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "perimorph/base/errors.hpp"
-#include "perimorph/fracture/case.hpp"
+#include "perimorph/cases/case.hpp"
 #include "support/temporary_directory.hpp"
 
 // A valid case. The tests replace a piece of it, and count lines from its first.
@@ -143,14 +143,14 @@ class CaseFile : public testing::Test {
 
   std::string file() const { return folder_ / "plate.xml"; }
 
-  perimorph::fracture::Case read(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+  perimorph::cases::Case read(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     std::ofstream(file(), std::ios::binary) << text;
-    return perimorph::fracture::read_case(file(), overrides);
+    return perimorph::cases::read_case(file(), overrides);
   }
 
   std::string error_of_file(const std::string& path, const std::vector<std::string>& overrides = {}) const {
     try {
-      perimorph::fracture::read_case(path, overrides);
+      perimorph::cases::read_case(path, overrides);
     } catch (const perimorph::base::UserError& error) {
       return error.what();
     }

@@ -9,6 +9,7 @@
 #include <Tpetra_Core.hpp>
 #include <fstream>
 
+#include "perimorph/cases/problem.hpp"
 #include "perimorph/fracture/run_observer.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
 #include "support/meshes.hpp"
@@ -89,27 +90,27 @@ double heap_in_use() {
 struct WholeRun {
   Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
   base::Profile profile;
-  fracture::Problem<2> problem;
+  model::Problem<2> problem;
   fracture::Checkpoints<2> checkpoints;
   mesh::Mesh<2> mesh;
   fracture::Body<2> body;
   fracture::Results<2> results;
 
-  WholeRun(const fracture::Case& input, const std::string& folder)
-      : problem(fracture::make_problem<2>(input)),
+  WholeRun(const cases::Case& input, const std::string& folder)
+      : problem(cases::make_problem<2>(input)),
         checkpoints(comm, input, folder, base::silent_log()),
         mesh(read()),
-        body(comm, mesh, problem, fracture::body_options(input), profile),
+        body(comm, mesh, problem, input.numerical, profile),
         results(comm, input, folder, {base::silent_log(), false}, profile, checkpoints.increment(),
                 checkpoints.results()) {
     checkpoints.restore(body);
   }
 
-  void advance_to(const fracture::Case& input, int increment) {
+  void advance_to(const cases::Case& input, int increment) {
     fracture::RunObserver<2> observer(results, checkpoints);
     fracture::LoopPosition position{checkpoints.increment()};
-    fracture::run_adaptive_loop(body, {increment, input.max_damage_iterations, input.max_zone_growths}, observer,
-                                position);
+    fracture::run_adaptive_loop(body, {increment, input.loading.max_damage_iterations, input.loading.max_zone_growths},
+                                observer, position);
     body.forget_solves();  // the preconditioner is not there after a restart
   }
 
@@ -120,7 +121,7 @@ struct WholeRun {
     mesh::open_along<2>(whole, problem.pre_cracks);
     checkpoints.identify(whole);
     checkpoints.expect_costs(std::vector<double>(whole.n_elements(), 1.));
-    return fracture::distribute_mesh(*comm, whole, problem, checkpoints.costs());
+    return model::distribute_mesh(*comm, whole, problem, checkpoints.costs());
   }
 };
 
@@ -128,8 +129,8 @@ TEST(Soak, ALongRunHoldsNoMoreThanOneThatWentOnFromACheckpoint) {
   const TemporaryDirectory folder;
   std::ofstream(folder.file("soak.xml")) << case_text;
   const int stretch = increments / 20;
-  const auto input = fracture::read_case(folder.file("soak.xml"), {fmt::format("Loading/Increments={}", increments),
-                                                                   fmt::format("Output/Checkpoint Every={}", stretch)});
+  const auto input = cases::read_case(folder.file("soak.xml"), {fmt::format("Loading/Increments={}", increments),
+                                                                fmt::format("Output/Checkpoint Every={}", stretch)});
   const auto megabytes = [](double bytes) { return bytes / 1e6; };
 
   double at_the_end = 0., afresh = 0.;

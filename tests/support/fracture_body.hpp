@@ -6,11 +6,13 @@
 
 #include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/mesh/distribute.hpp"
+#include "perimorph/model/numerical_options.hpp"
+#include "perimorph/model/problem.hpp"
 #include "support/meshes.hpp"
 
 namespace perimorph::tests {
 
-using fracture::DiscontinuousElements;
+using discretization::DiscontinuousElements;
 using morphing::Zone;
 using operators::PeridynamicStiffness;
 
@@ -39,7 +41,7 @@ struct SpecimenIn {
 using Specimen = SpecimenIn<2>;
 
 template <int dim>
-fracture::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
+model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   const auto model = specimen.elastic_model;
   const double youngs_modulus = specimen.youngs_modulus;
   const auto c0 = materials::calibrate<dim>(model, youngs_modulus, specimen.characteristic_length, specimen.horizon);
@@ -55,16 +57,18 @@ fracture::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
 }
 
 template <int dim>
-fracture::BodyOptions make_options(const SpecimenIn<dim>& specimen) {
-  fracture::BodyOptions options{};
+model::NumericalOptions make_options(const SpecimenIn<dim>& specimen) {
+  model::NumericalOptions options;
   options.blending_function = morphing::BlendingFunction::linear;
   options.discontinuous = specimen.discontinuous;
   options.peridynamic_stiffness = specimen.peridynamic_stiffness;
   options.growth_inner_radius = 2. * specimen.horizon;
   options.growth_outer_radius = 4. * specimen.horizon;
   options.tolerance = options.damage_tolerance = specimen.tolerance;
-  if (dim == 3) {  // the whole matrix would take most of the time
-    options.preconditioner_matrix = fracture::PreconditionerMatrix::short_range;
+  if (dim == 2) {
+    options.preconditioner_matrix = operators::PreconditionerMatrix::coupled;
+  } else {  // the whole matrix would take most of the time
+    options.preconditioner_matrix = operators::PreconditionerMatrix::short_range;
     options.short_range_cut_off = 0.6 * specimen.horizon;
   }
   options.breaking_fraction = specimen.breaking_fraction;
@@ -79,7 +83,7 @@ inline constexpr fracture::LoopLimits unlimited = {most, most, most};
 template <int dim>
 struct SpecimenBodyIn {
   mesh::Mesh<dim> mesh;
-  fracture::Problem<dim> problem;
+  model::Problem<dim> problem;
   base::Profile profile;
   fracture::Body<dim> body;
 

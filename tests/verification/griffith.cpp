@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "perimorph/fracture/calibration.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
+#include "perimorph/model/calibration.hpp"
 #include "support/fracture_body.hpp"
 
 namespace perimorph::tests {
@@ -205,7 +205,7 @@ Criticals criticals(const CrackTest& test, const Setting& setting) {
   SpecimenBody specimen(test.specimen);
   fracture::Body<2>& body = specimen.body;
   const double resistance =
-      fracture::lattice_resistance(setting.discontinuous, setting.stiffness, setting.characteristic_length);
+      model::lattice_resistance(setting.discontinuous, setting.stiffness, setting.characteristic_length);
   const double fracture_energy = resistance * resistance * specimen.problem.fracture_energy;
   const double critical = std::sqrt(1000. * fracture_energy);
   body.apply_load(1.);
@@ -275,7 +275,7 @@ TEST(GriffithEnergy, TheEnergyDissipatedIsTheFractureEnergyTimesTheNewArea) {
   SpecimenBody specimen(test.specimen);
   fracture::Body<2>& body = specimen.body;
   const double resistance =
-      fracture::lattice_resistance(setting.discontinuous, setting.stiffness, setting.characteristic_length);
+      model::lattice_resistance(setting.discontinuous, setting.stiffness, setting.characteristic_length);
   const double fracture_energy = resistance * resistance * specimen.problem.fracture_energy;
   body.apply_load(1.);
   body.update_topology();

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "perimorph/fracture/geometry.hpp"
+#include "perimorph/cases/geometry.hpp"
 #include "support/fracture_body.hpp"
 
 namespace perimorph::tests {
@@ -26,7 +26,7 @@ struct Errors {
 };
 
 /// The largest errors at the places, over the largest displacement and the stress; on rank 0.
-Errors errors_at(const std::vector<fracture::Probe>& probes, std::vector<Zone<2>> seeds) {
+Errors errors_at(const std::vector<cases::Probe>& probes, std::vector<Zone<2>> seeds) {
   SpecimenBody test(pulled(std::move(seeds)));
   test.body.apply_load(1.);
   test.body.update_topology();
@@ -50,9 +50,9 @@ Errors errors_at(const std::vector<fracture::Probe>& probes, std::vector<Zone<2>
   return errors;
 }
 
-const std::vector<fracture::Probe> lines = {{"across", {0., 11.3, 24., 12.9}, 40},
-                                            {"corners", {0., 0., 24., 0., 24., 24., 0., 24.}, 1},
-                                            {"node", {12., 24.}, 1}};
+const std::vector<cases::Probe> lines = {{"across", {0., 11.3, 24., 12.9}, 40},
+                                         {"corners", {0., 0., 24., 0., 24., 24., 0., 24.}, 1},
+                                         {"node", {12., 24.}, 1}};
 
 TEST(Probes, MeasureALinearFieldOfAClassicalBodyToRounding) {
   const auto errors = errors_at(lines, {});
@@ -68,12 +68,12 @@ TEST(Probes, MeasureItAcrossAMorphingZoneAsWellAsTheModelHasIt) {
 }
 
 TEST(ProbePlaces, AreTheGivenPointsAndTheDivisionsBetween) {
-  const auto places = fracture::places_of<2>({"line", {0., 0., 2., 0., 2., 4.}, 2});
+  const auto places = cases::places_of<2>({"line", {0., 0., 2., 0., 2., 4.}, 2});
   ASSERT_EQ(places.size(), 5u);
   EXPECT_EQ(places[1], Point2(1., 0.));
   EXPECT_EQ(places[3], Point2(2., 2.));
   EXPECT_EQ(places[4], Point2(2., 4.));
-  EXPECT_EQ(fracture::places_of<2>({"point", {3., 1.}, 7}), std::vector<Point2>{Point2(3., 1.)});
+  EXPECT_EQ(cases::places_of<2>({"point", {3., 1.}, 7}), std::vector<Point2>{Point2(3., 1.)});
 }
 
 }  // namespace

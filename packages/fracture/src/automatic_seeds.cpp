@@ -61,7 +61,7 @@ bool comes_before(const StretchedPlace<dim>& a, const StretchedPlace<dim>& b) {
 
 template <int dim>
 std::vector<StretchedPlace<dim>> most_stretched(const base::Comm& comm, const Body<dim>& body,
-                                                const Problem<dim>& problem, const AutomaticSeed& seed) {
+                                                const Problem<dim>& problem, const model::AutomaticSeed& seed) {
   using Place = StretchedPlace<dim>;
   auto own = own_free_elements(body, problem);
   double largest = 0.;
@@ -89,15 +89,16 @@ std::vector<StretchedPlace<dim>> most_stretched(const base::Comm& comm, const Bo
 }
 
 template <int dim>
-void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
-                           Problem<dim>& problem, base::Profile& profile, const base::Log& log) {
+void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
+                           const NumericalOptions& options, int last_increment, Problem<dim>& problem,
+                           base::Profile& profile, const base::Log& log) {
   if (problem.automatic_seeds.empty()) return;
   Problem<dim> elastic = problem;
   elastic.critical_stretch = std::numeric_limits<double>::infinity();
-  BodyOptions options = body_options(input);
-  options.tolerance = std::min(options.tolerance, 1e-9);  // much finer than strains are told apart
-  Body<dim> body(comm, mesh, elastic, options, profile);
-  body.apply_load(input.increments);
+  NumericalOptions accurate = options;
+  accurate.tolerance = std::min(options.tolerance, 1e-9);  // much finer than strains are told apart
+  Body<dim> body(comm, mesh, elastic, accurate, profile);
+  body.apply_load(last_increment);
   body.update_topology();
   body.solve(Accuracy::accepted);
   for (const auto& seed : problem.automatic_seeds) {
@@ -108,20 +109,20 @@ void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mes
     for (const auto& place : places) {
       problem.seeds.push_back(morphing::Zone<dim>::ball(position(place), seed.inner_radius, seed.outer_radius));
       log->info("seed             {}: at ({:.6g}), where the principal strain of the elastic body is {:.4g} of load {}",
-                seed.name, fmt::join(place.centroid, ", "), place.strain, input.increments);
+                seed.name, fmt::join(place.centroid, ", "), place.strain, last_increment);
     }
   }
   problem.automatic_seeds.clear();
 }
 
 template std::vector<StretchedPlace<2>> most_stretched<2>(const base::Comm&, const Body<2>&, const Problem<2>&,
-                                                          const AutomaticSeed&);
-template void place_automatic_seeds<2>(const Teuchos::RCP<const base::Comm>&, const mesh::Mesh<2>&, const Case&,
-                                       Problem<2>&, base::Profile&, const base::Log&);
+                                                          const model::AutomaticSeed&);
+template void place_automatic_seeds<2>(const Teuchos::RCP<const base::Comm>&, const mesh::Mesh<2>&,
+                                       const NumericalOptions&, int, Problem<2>&, base::Profile&, const base::Log&);
 
 template std::vector<StretchedPlace<3>> most_stretched<3>(const base::Comm&, const Body<3>&, const Problem<3>&,
-                                                          const AutomaticSeed&);
-template void place_automatic_seeds<3>(const Teuchos::RCP<const base::Comm>&, const mesh::Mesh<3>&, const Case&,
-                                       Problem<3>&, base::Profile&, const base::Log&);
+                                                          const model::AutomaticSeed&);
+template void place_automatic_seeds<3>(const Teuchos::RCP<const base::Comm>&, const mesh::Mesh<3>&,
+                                       const NumericalOptions&, int, Problem<3>&, base::Profile&, const base::Log&);
 
 }  // namespace perimorph::fracture

@@ -32,7 +32,7 @@ std::vector<double> own_costs(const Body<dim>& body) {
 
 template <int dim>
 std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
-                                   DiscontinuousElements discontinuous) {
+                                   discretization::DiscontinuousElements discontinuous) {
   std::vector<double> costs(whole.n_elements(), 1.);
   for (int e = 0; e < whole.n_elements(); ++e) {
     const auto center = mesh::centroid(whole, e);
@@ -47,7 +47,7 @@ std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<d
     const double n_points = whole.n_corners(e);  // as many as corners, about
     // A square or cube with this radius: the horizon's ball holds 1.6 or 2.7 times (horizon / radius)^dim of them.
     const double n_partners = (dim == 2 ? 1.6 : 2.7) * std::pow(problem.micromodulus.horizon / radius, dim);
-    costs[e] = cost<dim>(discontinuous == DiscontinuousElements::whole_zone, whole.n_corners(e),
+    costs[e] = cost<dim>(discontinuous == discretization::DiscontinuousElements::whole_zone, whole.n_corners(e),
                          0.5 * n_points * n_points * n_partners);
   }
   return costs;
@@ -71,11 +71,13 @@ Load measure_load(const base::Comm& comm, const Body<dim>& body) {
   return {total, base::max(comm, own) * comm.getSize() / total};
 }
 
-template std::vector<double> expected_costs<2>(const mesh::Mesh<2>&, const Problem<2>&, DiscontinuousElements);
+template std::vector<double> expected_costs<2>(const mesh::Mesh<2>&, const Problem<2>&,
+                                               discretization::DiscontinuousElements);
 template std::vector<double> element_costs<2>(const base::Comm&, const Body<2>&);
 template Load measure_load<2>(const base::Comm&, const Body<2>&);
 
-template std::vector<double> expected_costs<3>(const mesh::Mesh<3>&, const Problem<3>&, DiscontinuousElements);
+template std::vector<double> expected_costs<3>(const mesh::Mesh<3>&, const Problem<3>&,
+                                               discretization::DiscontinuousElements);
 template std::vector<double> element_costs<3>(const base::Comm&, const Body<3>&);
 template Load measure_load<3>(const base::Comm&, const Body<3>&);
 

@@ -10,7 +10,7 @@ namespace perimorph::fracture {
 /// whole on rank 0, elsewhere the result is empty. Local.
 template <int dim>
 std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
-                                   DiscontinuousElements discontinuous);
+                                   discretization::DiscontinuousElements discontinuous);
 
 /// What each element costs in an iteration, in classical elements, by its global id; on rank 0, empty elsewhere.
 /// Collective.

@@ -14,7 +14,7 @@ using base::Phase;
 namespace {
 
 template <int dim>
-discretization::TopologyOptions<dim> topology_options(const Problem<dim>& problem, const BodyOptions& options) {
+discretization::TopologyOptions<dim> topology_options(const Problem<dim>& problem, const NumericalOptions& options) {
   return {problem.seeds,
           problem.pre_cracks,
           problem.micromodulus,
@@ -23,11 +23,11 @@ discretization::TopologyOptions<dim> topology_options(const Problem<dim>& proble
           options.growth_inner_radius,
           options.growth_outer_radius,
           options.points_per_direction,
-          options.operator_form == OperatorForm::on_the_fly ? bonds::StiffnessStorage::on_the_fly
-                                                            : bonds::StiffnessStorage::stored};
+          options.operator_form == operators::OperatorForm::on_the_fly ? bonds::StiffnessStorage::on_the_fly
+                                                                       : bonds::StiffnessStorage::stored};
 }
 
-operators::SystemOptions system_options(const BodyOptions& options) {
+operators::SystemOptions system_options(const NumericalOptions& options) {
   return {options.peridynamic_stiffness, options.operator_form, options.preconditioner_matrix,
           options.short_range_cut_off};
 }
@@ -36,7 +36,7 @@ operators::SystemOptions system_options(const BodyOptions& options) {
 
 template <int dim>
 Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem,
-                const BodyOptions& options, base::Profile& profile)
+                const NumericalOptions& options, base::Profile& profile)
     : comm_(comm),
       problem_(problem),
       options_(options),
@@ -198,24 +198,6 @@ base::Point<dim> Body<dim>::reaction(int node) const {
     force[c] = system_.internal_force()[node * dim + c] - system_.loads()[node * dim + c];
   }
   return force;
-}
-
-BodyOptions body_options(const Case& input) {
-  BodyOptions options;
-  options.blending_function = input.blending_function;
-  options.discontinuous = input.discontinuous;
-  options.peridynamic_stiffness = input.peridynamic_stiffness;
-  options.growth_inner_radius = input.growth_inner_radius;
-  options.growth_outer_radius = input.growth_outer_radius;
-  options.tolerance = input.tolerance;
-  options.breaking_fraction = input.breaking_fraction;
-  options.damage_tolerance = std::max(input.damage_tolerance, input.tolerance);
-  options.operator_form = input.operator_form;
-  options.preconditioner_matrix = input.preconditioner_matrix;
-  options.short_range_cut_off = input.short_range_cut_off;
-  options.solver = {input.max_cg_iterations, input.renewal_cost, input.belos, input.muelu};
-  options.points_per_direction = input.points_per_direction;
-  return options;
 }
 
 template class Body<2>;

@@ -6,7 +6,6 @@
 
 #include "balance.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/input/resolved.hpp"
 #include "perimorph/mesh/fingerprint.hpp"
 
 namespace perimorph::fracture {
@@ -24,30 +23,15 @@ std::vector<T> from_root(const base::Comm& comm, const std::vector<T>& values) {
   return base::gather_on_all(comm, comm.getRank() == 0 ? values : std::vector<T>());
 }
 
-/// The parameters that decide what a run computes, a line each. A run that goes on may go further, solve otherwise or
-/// write more.
-std::string deciding_lines(const Case& input) {
-  constexpr const char* others[] = {"/Title",        "/Mesh/File",    "/Loading/Increments", "/Loading/Maximum",
-                                    "/Solver/",      "/Output/Every", "/Output/Checkpoint",  "/Output/Bonds",
-                                    "/Output/Spread"};
-  std::istringstream all(input::listing(input.resolved));
-  std::string deciding;
-  for (std::string line; std::getline(all, line);) {
-    const bool decides = std::none_of(std::begin(others), std::end(others),
-                                      [&](const std::string other) { return line.rfind(other, 0) == 0; });
-    if (decides) deciding += line + '\n';
-  }
-  return deciding;
-}
-
-/// The first line that only one of two texts has, from each; "" if there is none.
+/// The first line that only one of two texts has, from each: the same ones if there is none.
 std::pair<std::string, std::string> first_difference(const std::string& one, const std::string& other) {
   std::istringstream a(one), b(other);
   std::string line_a, line_b;
-  do {
+  while (a || b) {
     if (!std::getline(a, line_a)) line_a.clear();
     if (!std::getline(b, line_b)) line_b.clear();
-  } while (line_a == line_b && !line_a.empty());
+    if (line_a != line_b) break;
+  }
   return {line_a, line_b};
 }
 
@@ -137,16 +121,16 @@ std::vector<double> fetch(const base::Comm& comm, const std::vector<GlobalId>& e
 }  // namespace
 
 template <int dim>
-Checkpoints<dim>::Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder,
-                              base::Log log)
+Checkpoints<dim>::Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input,
+                              const std::string& folder, base::Log log)
     : comm_(comm),
       log_(std::move(log)),
       folder_(folder),
-      case_lines_(deciding_lines(input)),
-      every_(input.checkpoint_every),
-      last_increment_(input.increments),
-      seconds_(60. * input.checkpoint_minutes),
-      largest_imbalance_(input.largest_imbalance),
+      case_lines_(cases::deciding_lines(input)),
+      every_(input.output.checkpoint_every),
+      last_increment_(input.loading.increments),
+      seconds_(60. * input.output.checkpoint_minutes),
+      largest_imbalance_(input.solver.largest_imbalance),
       last_written_(now()) {}
 
 /// On rank 0.
@@ -178,8 +162,8 @@ void Checkpoints<dim>::load() {
     if (start_.integers["format"] != std::vector<GlobalId>{format}) {
       throw base::UserError("--restart: the checkpoint is of another version of the program");
     }
-    const auto [here, there] = first_difference(case_lines_, start_.texts["case"]);
-    if (here != there) {
+    if (case_lines_ != start_.texts["case"]) {
+      const auto [here, there] = first_difference(case_lines_, start_.texts["case"]);
       throw base::UserError(
           fmt::format("--restart: the checkpoint belongs to another case: there \"{}\", here \"{}\"; "
                       "run without --restart, or name the case's own folder with --output",

@@ -147,14 +147,14 @@ io::BondModel<dim> model_of(std::vector<PointRecord<dim>> points, std::vector<Bo
 }  // namespace
 
 template <int dim>
-Exports<dim>::Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+Exports<dim>::Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const cases::Case& input,
                       const std::string& folder, int increment)
     : comm_(comm),
       folder_(folder),
-      probes_(*comm, mesh, input.probes),
-      horizon_(input.horizon),
-      bond_increments_(input.bond_increments),
-      records_crack_(input.records_crack) {
+      probes_(*comm, mesh, input.output.probes),
+      horizon_(input.peridynamics.horizon),
+      bond_increments_(input.output.bond_increments),
+      records_crack_(input.output.records_crack) {
   base::on_all_ranks(*comm, [&] {
     if (comm_->getRank() == 0) open_tables(increment);
   });

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "perimorph/fracture/geometry.hpp"
+#include "perimorph/cases/geometry.hpp"
 #include "perimorph/operators/fields.hpp"
 
 namespace perimorph::fracture {
@@ -42,10 +42,10 @@ Point<dim> interpolated_displacement(const Body<dim>& body, const elements::Loca
 }  // namespace
 
 template <int dim>
-Probes<dim>::Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<Probe>& probes) {
+Probes<dim>::Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<cases::Probe>& probes) {
   for (const auto& probe : probes) {
     int number = 0;
-    for (const auto& position : places_of<dim>(probe)) places_.push_back({probe.name, ++number, position});
+    for (const auto& position : cases::places_of<dim>(probe)) places_.push_back({probe.name, ++number, position});
   }
   struct Claim {
     int place;

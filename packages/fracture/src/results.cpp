@@ -231,16 +231,16 @@ void take_own_groups(const Body<dim>& body, const SideSets& side_sets, const std
 }  // namespace
 
 template <int dim>
-Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder,
+Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
                       Voice voice, base::Profile& profile, int increment, const std::optional<ResultsState>& earlier)
     : comm_(comm),
       voice_(std::move(voice)),
       profile_(profile),
-      is_spread_(input.spread_files),
-      horizon_(input.horizon),
-      output_every_(input.output_every),
-      last_increment_(input.increments) {
-  for (const auto& group : input.reactions) {
+      is_spread_(input.output.spread_files),
+      horizon_(input.peridynamics.horizon),
+      output_every_(input.output.every),
+      last_increment_(input.loading.increments) {
+  for (const auto& group : input.output.reactions) {
     for (int c = 0; c < dim; ++c) reactions_.push_back({group + "_" + axis_names[c], group, c});
   }
   if (earlier) take_over(*earlier);
@@ -264,7 +264,7 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const Case& in
 
 /// On rank 0, or for spread files on all. Collective.
 template <int dim>
-void Results<dim>::open_series(const Case& input, const std::string& folder, std::vector<std::string> globals,
+void Results<dim>::open_series(const cases::Case& input, const std::string& folder, std::vector<std::string> globals,
                                const std::optional<ResultsState>& earlier) {
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0 && !is_spread_) return;

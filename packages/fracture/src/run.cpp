@@ -8,13 +8,14 @@
 
 #include "balance.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/fracture/advice.hpp"
+#include "perimorph/base/temporary_folder.hpp"
+#include "perimorph/cases/advice.hpp"
+#include "perimorph/cases/problem.hpp"
 #include "perimorph/fracture/automatic_seeds.hpp"
-#include "perimorph/fracture/calibration.hpp"
 #include "perimorph/fracture/run_observer.hpp"
 #include "perimorph/input/resolved.hpp"
 #include "perimorph/mesh/mesh_report.hpp"
-#include "temporary_folder.hpp"
+#include "perimorph/model/calibration.hpp"
 
 namespace perimorph::fracture {
 
@@ -23,7 +24,7 @@ using base::GlobalId;
 namespace {
 
 /// The names that a run writes to are none of those that it reads.
-void check_that_input_is_spared(const Case& input, const std::string& folder) {
+void check_that_input_is_spared(const cases::Case& input, const std::string& folder) {
   const auto is_result = [&](const std::string& file) {
     std::error_code ignored;
     for (const std::string& name : {std::string("resolved.xml"), input.name + ".e"}) {
@@ -31,14 +32,14 @@ void check_that_input_is_spared(const Case& input, const std::string& folder) {
     }
     return false;
   };
-  for (const auto& [file, what] : {std::pair{input.file, "case"}, {input.mesh_file, "mesh"}}) {
+  for (const auto& [file, what] : {std::pair{input.file, "case"}, {input.mesh.file, "mesh"}}) {
     if (!is_result(file)) continue;
     throw base::UserError(
         fmt::format("{}: the results would replace the {}: name another folder with --output", file, what));
   }
 }
 
-void make_folder(const base::Comm& comm, const Case& input, const std::string& folder) {
+void make_folder(const base::Comm& comm, const cases::Case& input, const std::string& folder) {
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
     check_that_input_is_spared(input, folder);
@@ -48,7 +49,7 @@ void make_folder(const base::Comm& comm, const Case& input, const std::string& f
   });
 }
 
-void write_resolved(const base::Comm& comm, const Case& input, const std::string& file) {
+void write_resolved(const base::Comm& comm, const cases::Case& input, const std::string& file) {
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
     std::ofstream stream(file);
@@ -59,10 +60,10 @@ void write_resolved(const base::Comm& comm, const Case& input, const std::string
 }
 
 template <int dim>
-void describe(const base::Comm& comm, const Case& input, const Problem<dim>& problem, const mesh::Mesh<dim>& mesh,
-              const base::Log& log) {
+void describe(const base::Comm& comm, const cases::Case& input, const Problem<dim>& problem,
+              const mesh::Mesh<dim>& mesh, const base::Log& log) {
   log->info("{}", input.title.empty() ? input.name : input.title);
-  log->info("mesh             {}: {} elements, {} nodes on {} rank{}", input.mesh_file, mesh.n_global_elements,
+  log->info("mesh             {}: {} elements, {} nodes on {} rank{}", input.mesh.file, mesh.n_global_elements,
             mesh.n_global_nodes, comm.getSize(), comm.getSize() == 1 ? "" : "s");
   log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
             problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
@@ -71,11 +72,12 @@ void describe(const base::Comm& comm, const Case& input, const Problem<dim>& pro
 /// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds,
 /// whose size is returned. Collective.
 template <int dim>
-double place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
-                           Problem<dim>& problem, base::Profile& profile, const base::Log& log) {
-  place_automatic_seeds(comm, mesh, input, problem, profile, log);
-  const double size = element_size(*comm, mesh, problem);
-  const bool is_calibrated = calibrate_to_mesh(problem, input, size);
+double place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
+                           const cases::Case& input, Problem<dim>& problem, base::Profile& profile,
+                           const base::Log& log) {
+  place_automatic_seeds(comm, mesh, input.numerical, input.loading.increments, problem, profile, log);
+  const double size = model::element_size(*comm, mesh, problem);
+  const bool is_calibrated = model::calibrate_to_mesh(problem, input.numerical, size);
   if (std::isinf(problem.critical_stretch)) {
     log->info("fracture         none: neither critical stretch nor fracture energy is given");
   } else {
@@ -99,15 +101,16 @@ void save_what_is_left(Checkpoints<dim>& checkpoints, spdlog::logger& log) {
 /// Goes on with one partition of the mesh, as far as it serves; returns whether the run is done.
 /// @throws ComputationError if it was asked to stop, and as run_adaptive_loop does.
 template <int dim>
-bool run_on(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+bool run_on(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const cases::Case& input,
             const Problem<dim>& problem, const std::string& folder, const Voice& voice, base::Profile& profile,
             Checkpoints<dim>& checkpoints, LoopPosition& position) {
-  Body<dim> body(comm, mesh, problem, body_options(input), profile);
+  Body<dim> body(comm, mesh, problem, input.numerical, profile);
   Results<dim> results(comm, input, folder, voice, profile, checkpoints.increment(), checkpoints.results());
   results.add_exports(std::make_unique<Exports<dim>>(comm, mesh, input, folder, checkpoints.increment()));
   checkpoints.restore(body);
   RunObserver<dim> observer(results, checkpoints);
-  const LoopLimits limits{input.increments, input.max_damage_iterations, input.max_zone_growths};
+  const LoopLimits limits{input.loading.increments, input.loading.max_damage_iterations,
+                          input.loading.max_zone_growths};
   const LoopEnd end = run_adaptive_loop(body, limits, observer, position);
   if (end == LoopEnd::stopped) {
     throw base::ComputationError(fmt::format("{} asked it to stop; --restart goes on after increment {}",
@@ -118,7 +121,7 @@ bool run_on(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& m
 }
 
 template <int dim>
-void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk,
+void run_in(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder, Talk talk,
             Start start) {
   base::Profile profile;
   make_folder(*comm, input, folder);
@@ -130,17 +133,17 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
     Checkpoints<dim> checkpoints(comm, input, folder, log);
     if (start == Start::from_checkpoint) checkpoints.load();
     write_resolved(*comm, input, folder + "/resolved.xml");
-    auto problem = make_problem<dim>(input);
+    auto problem = cases::make_problem<dim>(input);
     const auto whole = [&] {
       const auto timer = profile.measure(base::Phase::read);
-      auto mesh = read_whole_mesh<dim>(*comm, input, folder);
+      auto mesh = cases::read_whole_mesh<dim>(*comm, input, folder);
       checkpoints.identify(mesh);
-      checkpoints.expect_costs(expected_costs(mesh, problem, input.discontinuous));
+      checkpoints.expect_costs(expected_costs(mesh, problem, input.numerical.discontinuous));
       return mesh;
     }();
     const auto distribute = [&] {
       const auto timer = profile.measure(base::Phase::read);
-      return distribute_mesh(*comm, whole, problem, checkpoints.costs());
+      return model::distribute_mesh(*comm, whole, problem, checkpoints.costs());
     };
     auto mesh = distribute();
     describe(*comm, input, problem, mesh, log);
@@ -160,19 +163,20 @@ void run_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const
 }
 
 template <int dim>
-void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk) {
+void check_in(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, Talk talk) {
   base::Profile profile;
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   const auto log = base::make_log(*comm, talk == Talk::quiet);
-  auto problem = make_problem<dim>(input);
-  const auto whole = read_whole_mesh<dim>(*comm, input, folder.path());
-  const auto mesh = distribute_mesh(*comm, whole, problem, expected_costs(whole, problem, input.discontinuous));
+  auto problem = cases::make_problem<dim>(input);
+  const auto whole = cases::read_whole_mesh<dim>(*comm, input, folder.path());
+  const auto mesh =
+      model::distribute_mesh(*comm, whole, problem, expected_costs(whole, problem, input.numerical.discontinuous));
   log->info("{}", input::listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
 
   const double size = place_and_calibrate(comm, mesh, input, problem, profile, log);
-  Body<dim> body(comm, mesh, problem, body_options(input), profile);
+  Body<dim> body(comm, mesh, problem, input.numerical, profile);
   body.update_topology();
   const auto model = body.model();
   GlobalId n_bonds = 0;
@@ -200,23 +204,23 @@ void check_in(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Tal
               sums[6] / 1e6, sums[6] / sums[4], 2. * sums[4] / sums[5], sums[7] / 1e6);
   }
   log->info("The zone grows with the cracks, and unknowns, bonds and memory with it.");
-  for (const auto& line : advice(input, size)) log->warn("advice: {}: {}", input.file, line);
+  for (const auto& line : cases::advice(input, size)) log->warn("advice: {}: {}", input.file, line);
 }
 
 /// Calls an action with the case's dimension as a constant: the one place where it is chosen.
 template <class Action>
-void with_dimension(const Case& input, Action action) {
+void with_dimension(const cases::Case& input, Action action) {
   if (input.dimension == 2) action(std::integral_constant<int, 2>());
   if (input.dimension == 3) action(std::integral_constant<int, 3>());
 }
 
 }  // namespace
 
-void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk) {
+void check(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, Talk talk) {
   with_dimension(input, [&](auto dim) { check_in<dim>(comm, input, talk); });
 }
 
-void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk,
+void run(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder, Talk talk,
          Start start) {
   with_dimension(input, [&](auto dim) { run_in<dim>(comm, input, folder, talk, start); });
 }

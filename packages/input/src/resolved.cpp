@@ -180,6 +180,10 @@ class Resolver {
   Mistakes& mistakes_;
 };
 
+std::string line_of(const std::string& path, const ParameterEntry& value) {
+  return fmt::format("{} = {}\n", path, to_literal(value));
+}
+
 }  // namespace
 
 Resolved read(const std::string& file, const std::vector<std::string>& overrides, const ParameterList& schema,
@@ -197,8 +201,22 @@ std::string listing(const ParameterList& list, const std::string& path) {
   std::string text;
   for (const auto& item : list) {
     const std::string full = path + "/" + item.first;
-    text += item.second.isList() ? listing(list.sublist(item.first), full)
-                                 : fmt::format("{} = {}\n", full, to_literal(item.second));
+    text += item.second.isList() ? listing(list.sublist(item.first), full) : line_of(full, item.second);
+  }
+  return text;
+}
+
+std::string deciding_listing(const ParameterList& list, const ParameterList& schema, const std::string& path) {
+  std::string text;
+  for (const auto& item : list) {
+    const std::string full = path + "/" + item.first;
+    const std::string declared = schema.isSublist("*") ? "*" : item.first;
+    if (!schema.isParameter(declared)) continue;  // handed on as it is
+    if (item.second.isList()) {
+      text += deciding_listing(list.sublist(item.first), schema.sublist(declared), full);
+    } else if (!rule_of(schema.getEntry(declared)).is_changeable()) {
+      text += line_of(full, item.second);
+    }
   }
   return text;
 }

@@ -36,6 +36,12 @@ Rule Rule::with_presence(Presence presence) const {
   return copy;
 }
 
+Rule Rule::with_change() const {
+  Rule copy = *this;
+  copy.is_changeable_ = true;
+  return copy;
+}
+
 void Rule::printDoc(const std::string& documentation, std::ostream& out) const {
   out << "# " << documentation << "\n# Allowed is " << allowed_ << "\n";
 }
@@ -55,6 +61,8 @@ const Rule& rule_of(const ParameterEntry& declaration) { return dynamic_cast<con
 
 RulePtr required(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_presence(Presence::required))); }
 RulePtr optional(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_presence(Presence::optional))); }
+
+RulePtr changeable(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_change())); }
 
 RulePtr any_text() {
   return rule<std::string>("any text", [](const std::string&) { return true; });

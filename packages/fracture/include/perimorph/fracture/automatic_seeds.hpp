@@ -20,13 +20,14 @@ struct StretchedPlace {
 /// strains only show how fine the mesh is. Collective.
 template <int dim>
 std::vector<StretchedPlace<dim>> most_stretched(const base::Comm& comm, const Body<dim>& body,
-                                                const Problem<dim>& problem, const AutomaticSeed& seed);
+                                                const Problem<dim>& problem, const model::AutomaticSeed& seed);
 
 /// Replaces the automatic seeds of a problem by zones: solves it once, at the last increment's load and without
 /// breaking anything, and takes the most stretched places [WHL19, section 3.1]; the log tells them. Does nothing if
 /// there are no automatic seeds. Collective. @throws as Body does.
 template <int dim>
-void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
-                           Problem<dim>& problem, base::Profile& profile, const base::Log& log);
+void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
+                           const NumericalOptions& options, int last_increment, Problem<dim>& problem,
+                           base::Profile& profile, const base::Log& log);
 
 }  // namespace perimorph::fracture

@@ -2,29 +2,16 @@
 
 #include "perimorph/discretization/saved_state.hpp"
 #include "perimorph/fracture/external_work.hpp"
-#include "perimorph/fracture/problem.hpp"
+#include "perimorph/model/numerical_options.hpp"
+#include "perimorph/model/problem.hpp"
 #include "perimorph/operators/coupled_system.hpp"
 #include "perimorph/operators/crack_faces.hpp"
 #include "perimorph/solvers/equilibrium.hpp"
 
 namespace perimorph::fracture {
 
-/// How a body is discretized, and how well its equations are solved.
-struct BodyOptions {
-  morphing::BlendingFunction blending_function;
-  DiscontinuousElements discontinuous;
-  operators::PeridynamicStiffness peridynamic_stiffness;
-  double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o, [length]
-  double tolerance;                                 ///< residual over reaction forces in accepted solutions
-  double damage_tolerance;                          ///< the same while bonds break
-  double breaking_fraction = 1.;                    ///< share of the overstretched bonds that break between two solves
-  OperatorForm operator_form = OperatorForm::matrix_free;
-  PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
-  double short_range_cut_off = 0.;  ///< [length]
-  solvers::SolverParameters solver;
-  int points_per_direction = 2;  ///< material points of an element
-};
-BodyOptions body_options(const Case& input);
+using model::NumericalOptions;
+using model::Problem;
 
 /// How well to solve: between breaks, or well enough to say that nothing breaks.
 enum class Accuracy { breaking, accepted };
@@ -39,7 +26,7 @@ class Body {
  public:
   /// The mesh and the problem must outlive this.
   Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem,
-       const BodyOptions& options, base::Profile& profile);
+       const NumericalOptions& options, base::Profile& profile);
 
   /// Sets the load; the displacement is scaled along when the loads are proportional.
   void apply_load(double load_factor);
@@ -52,8 +39,8 @@ class Body {
   /// @throws ComputationError if the solver fails.
   void solve(Accuracy accuracy);
 
-  /// Breaks the bonds that reached the critical stretch, or the worst of them (BodyOptions::breaking_fraction); returns
-  /// how many.
+  /// Breaks the bonds that reached the critical stretch, or the worst of them (NumericalOptions::breaking_fraction);
+  /// returns how many.
   base::GlobalId break_bonds();
 
   /// Makes the centroids of newly damaged elements flag points, around which alpha will grow; returns how many.
@@ -90,7 +77,7 @@ class Body {
  private:
   Teuchos::RCP<const base::Comm> comm_;
   const Problem<dim>& problem_;
-  BodyOptions options_;
+  NumericalOptions options_;
   base::Profile& profile_;
 
   discretization::State<dim> state_;

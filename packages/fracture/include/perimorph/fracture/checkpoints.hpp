@@ -6,6 +6,7 @@
 
 #include "perimorph/base/log.hpp"
 #include "perimorph/base/signals.hpp"
+#include "perimorph/cases/case.hpp"
 #include "perimorph/fracture/body.hpp"
 #include "perimorph/fracture/results.hpp"
 #include "perimorph/io/checkpoint.hpp"
@@ -19,7 +20,8 @@ using discretization::SavedState;
 template <int dim>
 class Checkpoints {
  public:
-  Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, base::Log log);
+  Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
+              base::Log log);
 
   /// Reads the newest sound checkpoint, if there is any. Collective.
   /// @throws UserError if all are damaged, or if it belongs to another case: names what differs.

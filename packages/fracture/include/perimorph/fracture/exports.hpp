@@ -5,6 +5,7 @@
 #include <string>
 
 #include "perimorph/bonds/crack.hpp"
+#include "perimorph/cases/case.hpp"
 #include "perimorph/fracture/probes.hpp"
 #include "perimorph/io/history.hpp"
 
@@ -17,7 +18,7 @@ class Exports {
  public:
   /// Goes on with the tables of an earlier run after that increment, if it is not 0. Collective.
   /// @throws UserError if they cannot be written, or the earlier ones are not there.
-  Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const Case& input,
+  Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const cases::Case& input,
           const std::string& folder, int increment);
 
   /// Records an increment. Collective. @throws ComputationError if a file cannot be written.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "perimorph/cases/output.hpp"
 #include "perimorph/elements/locator.hpp"
 #include "perimorph/fracture/body.hpp"
 
@@ -23,7 +24,7 @@ class Probes {
   };
 
   /// Collective.
-  Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<Probe>& probes);
+  Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<cases::Probe>& probes);
 
   /// A probe's name, the number of the place in it from 1, and the place.
   struct Place {

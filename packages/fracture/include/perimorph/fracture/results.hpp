@@ -9,6 +9,7 @@
 
 #include "perimorph/base/log.hpp"
 #include "perimorph/base/pace.hpp"
+#include "perimorph/cases/case.hpp"
 #include "perimorph/fracture/body.hpp"
 #include "perimorph/fracture/exports.hpp"
 #include "perimorph/io/exodus.hpp"
@@ -60,7 +61,7 @@ class Results {
  public:
   /// Goes on with the results of an earlier run after that increment, if there are any. Collective.
   /// @throws UserError if the folder cannot be written, or the earlier results are not there.
-  Results(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Voice voice,
+  Results(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder, Voice voice,
           base::Profile& profile, int increment = 0, const std::optional<ResultsState>& earlier = {});
 
   /// Accepted increments are recorded by these too. Local.
@@ -121,7 +122,7 @@ class Results {
   double earlier_seconds_ = 0.;  ///< of the run that this one goes on with
   double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
   std::vector<double> globals(const Body<dim>& body) const;
-  void open_series(const Case& input, const std::string& folder, std::vector<std::string> globals,
+  void open_series(const cases::Case& input, const std::string& folder, std::vector<std::string> globals,
                    const std::optional<ResultsState>& earlier);
   void start_file(const Body<dim>& body, const std::vector<mesh::Side>& broken_surface);
   io::ExodusModel<dim> gathered(const Body<dim>& body, const std::vector<ElementRecord>& own,

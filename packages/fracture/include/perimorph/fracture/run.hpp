@@ -3,7 +3,7 @@
 #include <string>
 
 #include "perimorph/base/log.hpp"
-#include "perimorph/fracture/case.hpp"
+#include "perimorph/cases/case.hpp"
 
 namespace perimorph::fracture {
 
@@ -16,11 +16,11 @@ enum class Start { at_the_first_increment, from_checkpoint };
 
 /// Runs a case to the last increment; results go to the folder, which is made. Collective.
 /// @throws base::UserError, base::ComputationError, base::Bug: the same on all ranks.
-void run(const Teuchos::RCP<const base::Comm>& comm, const Case& input, const std::string& folder, Talk talk,
+void run(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder, Talk talk,
          Start start = Start::at_the_first_increment);
 
 /// Checks a case and its mesh and prints the resolved parameters, the material's derived constants and an estimate of
 /// unknowns, bonds and memory. Collective. @throws as run.
-void check(const Teuchos::RCP<const base::Comm>& comm, const Case& input, Talk talk);
+void check(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, Talk talk);
 
 }  // namespace perimorph::fracture

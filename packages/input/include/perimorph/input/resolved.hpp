@@ -31,4 +31,9 @@ Resolved read(const std::string& file, const std::vector<std::string>& overrides
 /// The values of a list: "/Section/Sub/Name = value", a line each. Local.
 std::string listing(const Teuchos::ParameterList& list, const std::string& path = "");
 
+/// The same, but only what the schema does not let a run change when it goes on from a checkpoint. What is handed on as
+/// it is, it may change. Local.
+std::string deciding_listing(const Teuchos::ParameterList& list, const Teuchos::ParameterList& schema,
+                             const std::string& path = "");
+
 }  // namespace perimorph::input

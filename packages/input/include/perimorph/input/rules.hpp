@@ -22,6 +22,11 @@ class Rule : public Teuchos::ParameterEntryValidator {
   Presence presence() const { return presence_; }
   Rule with_presence(Presence presence) const;
 
+  /// Whether a run that goes on from a checkpoint may have another value than the one that wrote it: the parameter does
+  /// not decide what is computed.
+  bool is_changeable() const { return is_changeable_; }
+  Rule with_change() const;
+
   const std::string& allowed() const { return allowed_; }
   bool accepts(const Teuchos::ParameterEntry& entry) const { return test_(entry); }
   const std::vector<std::string>& choices() const { return choices_; }  ///< empty if any text will do
@@ -36,6 +41,7 @@ class Rule : public Teuchos::ParameterEntryValidator {
   Test test_;
   std::vector<std::string> choices_;
   Presence presence_ = Presence::defaulted;
+  bool is_changeable_ = false;
 };
 
 using RulePtr = Teuchos::RCP<const Rule>;
@@ -45,6 +51,7 @@ const Rule& rule_of(const Teuchos::ParameterEntry& declaration);
 
 RulePtr required(const RulePtr& rule);
 RulePtr optional(const RulePtr& rule);
+RulePtr changeable(const RulePtr& rule);
 
 RulePtr any_text();
 RulePtr text(const std::string& what);  ///< not empty

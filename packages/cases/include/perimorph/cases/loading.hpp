@@ -1,0 +1,17 @@
+#pragma once
+
+#include "perimorph/input/section.hpp"
+#include "perimorph/model/numerical_options.hpp"
+
+namespace perimorph::cases {
+
+/// How far to go, and when to give up.
+struct Loading {
+  int increments = 0;
+  int max_damage_iterations = 20000;  ///< solves within one increment
+  int max_zone_growths = 5000;        ///< changes of topology within one increment
+};
+
+void declare(const input::Section& section, Loading& loading, model::NumericalOptions& numerical);
+
+}  // namespace perimorph::cases

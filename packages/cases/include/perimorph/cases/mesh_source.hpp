@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "perimorph/input/section.hpp"
+
+namespace perimorph::cases {
+
+/// Where the body comes from.
+struct MeshSource {
+  std::string file;   ///< in a case as read: resolved against the case file's folder
+  double scale = 1.;  ///< factor on its coordinates [-]
+};
+
+void declare(const input::Section& section, MeshSource& mesh);
+
+}  // namespace perimorph::cases

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "perimorph/input/section.hpp"
+#include "perimorph/model/numerical_options.hpp"
+
+namespace perimorph::cases {
+
+/// Conjugate gradients with an algebraic multigrid preconditioner: what is not in the numerical options as it is.
+struct Solver {
+  std::optional<double> short_range_cut_off;  ///< of the bonds in the short-range matrix [horizons]
+  double largest_imbalance = 1.25;            ///< of the ranks' work, before the mesh is partitioned again [-]
+};
+
+void declare(const input::Section& section, Solver& solver, model::NumericalOptions& numerical);
+
+}  // namespace perimorph::cases

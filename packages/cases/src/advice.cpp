@@ -1,0 +1,127 @@
+#include "perimorph/cases/advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "perimorph/materials/micromodulus.hpp"
+#include "perimorph/model/calibration.hpp"
+
+namespace perimorph::cases {
+
+namespace {
+
+/// Below these, and what it costs: tests/verification/README.md has the measurements.
+constexpr double least_length = 0.3;   // characteristic, in element sizes
+constexpr double least_horizon = 3.;   // in element sizes
+constexpr double most_cut_off = 0.05;  // of the micromodulus, by the horizon
+constexpr double least_rim = 1.;       // over which alpha falls, in horizons
+constexpr double least_zone = 2.;      // inner radius, in horizons
+
+class Advice {
+ public:
+  Advice(const Case& input, double element_size)
+      : input_(input),
+        breaks_(input.material.breaks()),
+        horizon_(input.peridynamics.horizon),
+        length_(input.peridynamics.characteristic_length),
+        size_(element_size) {}
+
+  std::vector<std::string> all() {
+    if (input_.morphing.seeds.empty()) return {};
+    check_length();
+    check_horizon();
+    check_cut_off();
+    for (const Seed& seed : input_.morphing.seeds) check_seed(seed);
+    check_growth();
+    return std::move(lines_);
+  }
+
+ private:
+  template <class... Values>
+  void add(const std::string& path, fmt::format_string<Values...> what, Values&&... values) {
+    lines_.push_back(path + ": " + fmt::format(what, std::forward<Values>(values)...));
+  }
+
+  void check_length() {
+    const double length = length_ / size_;
+    if (!breaks_ || length >= least_length || input_.dimension != 2) return;  // in three dimensions little is held up
+    const auto& numerical = input_.numerical;
+    const double resistance =
+        model::lattice_resistance(numerical.discontinuous, numerical.peridynamic_stiffness, length);
+    const bool is_calibrated =
+        model::is_calibrated_to_mesh(input_.material.calibration, input_.dimension, numerical.points_per_direction);
+    add("/Peridynamics/Characteristic Length",
+        "{:.4g} is {:.2f} of an element; the mesh then holds cracks up, to {:.2f} of the load of fracture mechanics{}. "
+        "Better is a third of an element, {:.3g}, with a horizon of four",
+        length_, length, resistance,
+        is_calibrated ? " (for which the critical stretch makes up), and they move in jumps" : "", size_ / 3.);
+  }
+
+  void check_horizon() {
+    const double horizon = horizon_ / size_;
+    if (horizon < least_horizon) {
+      add("/Peridynamics/Horizon", "{:.4g} is {:.1f} elements; with fewer than three, cracks follow the mesh", horizon_,
+          horizon);
+    }
+  }
+
+  void check_cut_off() {
+    const double whole = materials::kernel_moment(5, length_, 40. * length_);
+    const double cut_off = 1. - materials::kernel_moment(5, length_, horizon_) / whole;
+    if (cut_off <= most_cut_off) return;
+    add("/Peridynamics/Horizon",
+        "{:.4g} is {:.1f} characteristic lengths and cuts off {:.0f} % of the micromodulus; below eleven, results "
+        "depend on it",
+        horizon_, horizon_ / length_, 100. * cut_off);
+  }
+
+  void check_seed(const Seed& seed) {
+    const std::string path = "/Morphing/Seeds/" + seed.name;
+    if (seed.shape == SeedShape::ball) {
+      check_rim(path + "/Outer Radius", seed.outer_radius - seed.inner_radius);
+      if (breaks_) check_zone(path + "/Inner Radius", seed.inner_radius);
+    } else if (seed.shape == SeedShape::box) {
+      check_rim(path + "/Rim", seed.rim);
+      double narrowest = seed.upper_corner[0] - seed.lower_corner[0];
+      for (std::size_t i = 1; i < seed.upper_corner.size(); ++i) {
+        narrowest = std::min(narrowest, seed.upper_corner[i] - seed.lower_corner[i]);
+      }
+      if (breaks_) check_zone(path + "/Upper Corner", 0.5 * narrowest);
+    }
+  }
+
+  void check_growth() {
+    if (!breaks_) return;
+    check_rim("/Morphing/Growth Outer Radius",
+              input_.numerical.growth_outer_radius - input_.numerical.growth_inner_radius);
+    check_zone("/Morphing/Growth Inner Radius", input_.numerical.growth_inner_radius);
+  }
+
+  void check_rim(const std::string& path, double rim) {
+    if (rim >= least_rim * horizon_) return;
+    add(path,
+        "alpha falls over {:.4g}, {:.2f} horizons; where the models meet, strains are then wrong by 3.5 % at half a "
+        "horizon and 7.6 % at a quarter, against 2.5 % from one horizon on",
+        rim, rim / horizon_);
+  }
+
+  void check_zone(const std::string& path, double radius) {
+    if (radius >= least_zone * horizon_) return;
+    add(path,
+        "the zone reaches {:.4g}, {:.2f} horizons, from its centre; bonds break only where it is one horizon deeper. "
+        "Better are two horizons or more",
+        radius, radius / horizon_);
+  }
+
+  const Case& input_;
+  bool breaks_;
+  double horizon_, length_, size_;  ///< horizon, characteristic length and elements, [length]
+  std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> advice(const Case& input, double element_size) { return Advice(input, element_size).all(); }
+
+}  // namespace perimorph::cases

@@ -1,0 +1,108 @@
+#include "perimorph/cases/boundary_conditions.hpp"
+
+#include <array>
+#include <map>
+
+#include "choices.hpp"
+#include "shapes.hpp"
+
+namespace perimorph::cases {
+
+namespace {
+
+using discretization::PrescribedComponent;
+using Teuchos::ParameterList;
+
+constexpr std::array<Choice<int>, 3> components{{{"x", 0}, {"y", 1}, {"z", 2, 3}}};
+constexpr const char* load_names[] = {"Rate", "Constant"};
+
+void declare_displacement(const input::Section& section, PrescribedComponent& one) {
+  using namespace input;
+  section.required("Group", one.node_set, "left", text("the name of a group"), "A physical group of the mesh.");
+  section.required_choice("Component", one.component, components,
+                          "The direction held or moved; the others stay free. z in three dimensions only.");
+  section.parameter("Rate", one.value.rate, any_number(),
+                    "[length per increment]: what loads the body; 0 holds it. Its sign is that of the axis.");
+  section.parameter("Constant", one.value.constant, any_number(), "[length], there from the first increment on.");
+}
+
+void declare_traction(const input::Section& section, Traction& one) {
+  using namespace input;
+  const auto vector = numbers("{x, y} or {x, y, z}");
+  section.required("Group", one.group, "right", text("the name of a group"),
+                   "A physical group of the mesh: part of its boundary.");
+  section.parameter("Rate", one.rate, vector, "[stress per increment], one number per dimension; {} is zero.");
+  section.parameter("Constant", one.constant, vector, "[stress], one number per dimension; {} is zero.");
+}
+
+void check_displacements(const input::Values& conditions, int dimension) {
+  std::map<std::pair<std::string, std::string>, std::string> seen;
+  for (const auto& one : conditions.subs("Displacements")) {
+    const std::string *group = one.text("Group"), *component = one.text("Component");
+    check_choice(one, "Component", components, dimension);
+    if (group == nullptr || component == nullptr) continue;
+    const auto [first, is_new] = seen.emplace(std::make_pair(*group, *component), one.path());
+    if (is_new) continue;
+    one.mistake("Component",
+                fmt::format("found the group {} with \"{}\" again; {} prescribes that displacement already",
+                            input::in_quotes(*group), *component, first->second));
+  }
+}
+
+/// No numbers at all stand for zeros.
+void check_load(const input::Values& load, int dimension) {
+  for (const char* name : load_names) {
+    const auto* values = load.numbers(name);
+    if (values != nullptr && !values->empty()) check_size(load, name, dimension);
+  }
+}
+
+void fill_with_zeros(ParameterList& load, int dimension) {
+  using Numbers = Teuchos::Array<double>;
+  for (const char* name : load_names) {
+    if (load.get<Numbers>(name).empty()) load.set(name, Numbers(dimension, 0.));
+  }
+}
+
+}  // namespace
+
+void declare(const input::Section& section, BoundaryConditions& conditions) {
+  using namespace input;
+  section.entries("Displacements", conditions.displacements, declare_displacement,
+                  "Prescribed displacements, each a list with a name of your choice: one component of one group. In "
+                  "increment k it is Rate * k + Constant.",
+                  "One component of one group.");
+  section.entries("Tractions", conditions.tractions, declare_traction,
+                  "Forces on parts of the boundary, each a list with a name of your choice. In increment k the "
+                  "traction is Rate * k + Constant.",
+                  "The traction on one group.");
+  const auto body = section.section("Body Force", "Force per volume: Rate * k + Constant in increment k.");
+  const auto vector = numbers("{x, y} or {x, y, z}");
+  body.parameter("Rate", conditions.body_force_rate, vector,
+                 "[force/volume per increment], one number per dimension; {} is zero.");
+  body.parameter("Constant", conditions.body_force_constant, vector,
+                 "[force/volume], one number per dimension; {} is zero.");
+}
+
+void check_boundary_conditions(const input::Values& section, int dimension) {
+  check_displacements(section, dimension);
+  for (const auto& traction : section.subs("Tractions")) check_load(traction, dimension);
+  check_load(section.sub("Body Force"), dimension);
+}
+
+void complete_boundary_conditions(ParameterList& values, int dimension) {
+  fill_with_zeros(values.sublist("Body Force"), dimension);
+  ParameterList& tractions = values.sublist("Tractions");
+  for (const auto& item : tractions) fill_with_zeros(tractions.sublist(item.first), dimension);
+}
+
+bool BoundaryConditions::are_proportional() const {
+  const auto is_zero = [](double value) { return value == 0.; };
+  const auto all_zero = [&](const std::vector<double>& v) { return std::all_of(v.begin(), v.end(), is_zero); };
+  return std::all_of(displacements.begin(), displacements.end(),
+                     [&](const auto& d) { return is_zero(d.value.constant); }) &&
+         std::all_of(tractions.begin(), tractions.end(), [&](const auto& t) { return all_zero(t.constant); }) &&
+         all_zero(body_force_constant);
+}
+
+}  // namespace perimorph::cases

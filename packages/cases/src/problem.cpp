@@ -1,0 +1,73 @@
+#include "perimorph/cases/problem.hpp"
+
+#include <limits>
+
+#include "mesh_checks.hpp"
+#include "perimorph/cases/geometry.hpp"
+
+namespace perimorph::cases {
+
+namespace {
+
+template <int dim>
+discretization::Loads<dim> make_loads(const BoundaryConditions& conditions) {
+  std::vector<discretization::SurfaceTraction<dim>> tractions;
+  for (const auto& t : conditions.tractions) {
+    tractions.push_back({t.group, {point<dim>(t.rate), point<dim>(t.constant)}});
+  }
+  return {std::move(tractions), {point<dim>(conditions.body_force_rate), point<dim>(conditions.body_force_constant)}};
+}
+
+}  // namespace
+
+template <int dim>
+model::Problem<dim> make_problem(const Case& input) {
+  const Material& material = input.material;
+  const auto c0 = materials::calibrate<dim>(material.elastic_model, material.youngs_modulus,
+                                            input.peridynamics.characteristic_length, input.peridynamics.horizon);
+  double critical_stretch = std::numeric_limits<double>::infinity();
+  if (material.critical_stretch) critical_stretch = *material.critical_stretch;
+  if (material.fracture_energy) critical_stretch = materials::critical_stretch<dim>(c0, *material.fracture_energy);
+
+  model::Problem<dim> problem{
+      materials::elasticity_tensor<dim>(material.elastic_model, material.youngs_modulus, material.poissons_ratio),
+      c0,
+      critical_stretch,
+      materials::fracture_energy<dim>(c0, critical_stretch),
+      {},
+      facets_of<dim>(input.pre_cracks),
+      input.boundary_conditions.displacements,
+      make_loads<dim>(input.boundary_conditions),
+      input.boundary_conditions.are_proportional()};
+  problem.calibration = material.calibration;
+  problem.is_stretch_given = material.critical_stretch.has_value();
+  for (const auto& seed : input.morphing.seeds) {
+    if (seed.shape == SeedShape::automatic) {
+      problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});
+    } else {
+      problem.seeds.push_back(zone_of<dim>(seed));
+    }
+  }
+  return problem;
+}
+
+template <int dim>
+mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder) {
+  mesh::Mesh<dim> whole;
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() != 0) return;
+    whole = read_opened_mesh<dim>(input, folder);
+    input::Mistakes mistakes(input.file);
+    check_against_mesh(input, whole, mistakes);
+    mistakes.report();
+  });
+  return whole;
+}
+
+template model::Problem<2> make_problem<2>(const Case&);
+template mesh::Mesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const std::string&);
+
+template model::Problem<3> make_problem<3>(const Case&);
+template mesh::Mesh<3> read_whole_mesh<3>(const base::Comm&, const Case&, const std::string&);
+
+}  // namespace perimorph::cases

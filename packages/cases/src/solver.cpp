@@ -1,0 +1,67 @@
+#include "perimorph/cases/solver.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "choices.hpp"
+#include "perimorph/operators/bond_selection.hpp"
+
+namespace perimorph::cases {
+
+namespace {
+
+using operators::OperatorForm;
+using operators::PreconditionerMatrix;
+
+constexpr std::array<Choice<PreconditionerMatrix>, 2> preconditioner_matrices{
+    {{"Coupled", PreconditionerMatrix::coupled}, {"Short-Range", PreconditionerMatrix::short_range}}};
+constexpr std::array<Choice<OperatorForm>, 3> operator_forms{
+    {{"CRS", OperatorForm::crs}, {"Matrix-Free", OperatorForm::matrix_free}, {"On-the-Fly", OperatorForm::on_the_fly}}};
+
+}  // namespace
+
+void declare(const input::Section& decisive, Solver& solver, model::NumericalOptions& numerical) {
+  using namespace input;
+  const Section section = decisive.changeable();
+  const double cut_off = operators::default_short_range_cut_off(2);
+  section.choice(
+      "Operator", numerical.operator_form, operator_forms,
+      "How the coupled stiffness is applied: \"CRS\" is an assembled sparse matrix; \"Matrix-Free\" pulls along every "
+      "bond and strains every element anew, which moves several times fewer bytes. \"On-the-Fly\" also computes the "
+      "stiffness of every bond anew, in single precision: a third of the memory for bonds and operator, while "
+      "conjugate gradients take up to twice the time in three dimensions. For what would not fit otherwise.");
+  section.choice(
+      "Preconditioner Matrix", numerical.preconditioner_matrix, preconditioner_matrices,
+      "What the multigrid preconditioner is built from: \"Coupled\" is the whole stiffness; \"Short-Range\" leaves out "
+      "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.");
+  section.optional(
+      "Short-Range Cut-Off", solver.short_range_cut_off, cut_off, between(0., 1.),
+      fmt::format("Longest bond in the short-range matrix, in horizons [-]; {} in two dimensions and {} in three if "
+                  "not given. Below the distance of points in neighbouring elements the preconditioner is useless.",
+                  cut_off, operators::default_short_range_cut_off(3)));
+  section.parameter("Tolerance", numerical.tolerance, between(0., 1.),
+                    "Residual over the norm of the reaction forces [-], in every solution that is accepted. Only with "
+                    "it is it decided that no more bonds break.");
+  section.parameter("Damage Tolerance", numerical.damage_tolerance, between(0., 1.),
+                    "The same as Tolerance, in solutions after which bonds break [-]; not below Tolerance. Too loose, "
+                    "and bonds break in another order.");
+  section.parameter(
+      "Maximum Iterations", numerical.solver.max_iterations, count(),
+      "Of conjugate gradients in one solution. When they do not suffice, the system is tried twice more with other "
+      "preconditioners; then the run ends with status 3. Far below 100 it may end although nothing is wrong.");
+  section.parameter("Renewal Cost", numerical.solver.renewal_cost, at_least(0.),
+                    "The preconditioner is renewed when, since its last set-up, solutions have taken so many "
+                    "iterations more than they would have with a new one [-]: what a set-up costs, in iterations.");
+  section.parameter(
+      "Largest Imbalance", solver.largest_imbalance, at_least(1.),
+      "Elements are parted among the ranks by their number of bonds, and anew when the zone has grown and one rank has "
+      "more than so many times the mean of the work [-]. Near 1 it costs more than it saves.");
+  section.anything("Belos", numerical.solver.belos,
+                   "Any parameters of Belos, handed on as they are, over the program's own.");
+  section.anything(
+      "MueLu", numerical.solver.muelu,
+      "Any parameters of MueLu, handed on as they are, over the program's own. The W-cycle and its smoother are ours.");
+}
+
+}  // namespace perimorph::cases

@@ -1,0 +1,93 @@
+#include "perimorph/model/calibration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace perimorph::model {
+
+using discretization::DiscontinuousElements;
+using operators::PeridynamicStiffness;
+
+namespace {
+
+constexpr std::array<double, 4> lengths = {0.2, 0.25, 1. / 3., 0.5};  // characteristic, in element sizes
+using Resistances = std::array<double, lengths.size()>;
+
+// The column "load" of the study "resistance" in tests/verification/fracture.csv.
+constexpr Resistances on_damage_dropped = {1.289, 1.105, 1.030, 0.993};
+constexpr Resistances on_damage_kept = {1.530, 1.350, 1.130, 0.986};
+constexpr Resistances whole_zone_dropped = {1.145, 1.082, 1.031, 0.997};
+constexpr Resistances whole_zone_kept = {1.136, 1.069, 1.015, 0.991};
+
+const Resistances& resistances_of(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness) {
+  const bool is_kept = stiffness == PeridynamicStiffness::kept;
+  if (discontinuous == DiscontinuousElements::whole_zone) return is_kept ? whole_zone_kept : whole_zone_dropped;
+  return is_kept ? on_damage_kept : on_damage_dropped;
+}
+
+}  // namespace
+
+double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
+                          double characteristic_length) {
+  const Resistances& measured = resistances_of(discontinuous, stiffness);
+  std::size_t i = 0;
+  while (i + 2 < lengths.size() && characteristic_length > lengths[i + 1]) ++i;
+  const double share = std::clamp((characteristic_length - lengths[i]) / (lengths[i + 1] - lengths[i]), 0., 1.);
+  return (1. - share) * measured[i] + share * measured[i + 1];
+}
+
+template <int dim>
+double element_size(const base::Comm& comm, const mesh::Mesh<dim>& body, const Problem<dim>& problem) {
+  mesh::Mesh<dim> in_seeds, all;
+  in_seeds.coordinates = all.coordinates = body.coordinates;
+  const auto add = [&](mesh::Mesh<dim>& part, int e) {
+    part.types.push_back(body.types[e]);
+    part.corners.insert(part.corners.end(), body.corners_of(e), body.corners_of(e) + body.n_corners(e));
+    part.first_corner.push_back(static_cast<int>(part.corners.size()));
+  };
+  for (int e = 0; e < body.n_owned_elements; ++e) {
+    const auto center = mesh::centroid(body, e);
+    const bool is_in_a_seed = std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& seed) {
+      return seed.alpha(center, morphing::BlendingFunction::linear) == 1.;
+    });
+    add(all, e);
+    if (is_in_a_seed) add(in_seeds, e);
+  }
+  std::vector<double> sums;
+  for (const auto* part : {&in_seeds, &all}) {
+    sums.push_back(part->n_elements());
+    sums.push_back(part->n_elements() * mesh::mean_edge(*part));
+  }
+  base::sum(comm, sums);
+  // In single precision, so that the order of the sums on other numbers of ranks changes no bit of the critical
+  // stretch.
+  return static_cast<float>(sums[0] > 0. ? sums[1] / sums[0] : sums[3] / sums[2]);
+}
+
+bool is_calibrated_to_mesh(Calibration calibration, int dimension, int points_per_direction) {
+  const bool is_measured = dimension == 2 && points_per_direction == 2;
+  return is_measured && calibration == Calibration::mesh_consistent;
+}
+
+template <int dim>
+bool calibrate_to_mesh(Problem<dim>& problem, const NumericalOptions& options, double element_size) {
+  const bool is_calibrated = is_calibrated_to_mesh(problem.calibration, dim, options.points_per_direction);
+  if (!is_calibrated || std::isinf(problem.critical_stretch)) return false;
+  const double resistance = lattice_resistance(options.discontinuous, options.peridynamic_stiffness,
+                                               problem.micromodulus.characteristic_length / element_size);
+  if (problem.is_stretch_given) {
+    problem.fracture_energy *= resistance * resistance;
+  } else {
+    problem.critical_stretch /= resistance;
+  }
+  return true;
+}
+
+template double element_size<2>(const base::Comm&, const mesh::Mesh<2>&, const Problem<2>&);
+template bool calibrate_to_mesh<2>(Problem<2>&, const NumericalOptions&, double);
+
+template double element_size<3>(const base::Comm&, const mesh::Mesh<3>&, const Problem<3>&);
+template bool calibrate_to_mesh<3>(Problem<3>&, const NumericalOptions&, double);
+
+}  // namespace perimorph::model
