@@ -150,18 +150,9 @@ class Checks {
 
   void check_contradictions() {
     const auto& conditions = input_.boundary_conditions.displacements;
-    std::vector<int> set_by(static_cast<std::size_t>(mesh_.n_nodes()) * dim, -1);
     std::map<std::pair<int, int>, std::vector<int>> nodes_of_pair;
-    for (int i = 0; i < static_cast<int>(conditions.size()); ++i) {
-      const auto group = mesh_.node_sets.find(conditions[i].node_set);
-      if (group == mesh_.node_sets.end()) continue;  // told already
-      for (const int node : group->second) {
-        int& first = set_by[static_cast<std::size_t>(node) * dim + conditions[i].component];
-        if (first < 0) first = i;
-        const auto &a = conditions[first], &b = conditions[i];
-        if (a.value.rate != b.value.rate || a.value.constant != b.value.constant)
-          nodes_of_pair[{first, i}].push_back(node);
-      }
+    for (const auto& [first, second, node] : discretization::contradictions(mesh_, conditions)) {
+      nodes_of_pair[{first, second}].push_back(node);
     }
     for (const auto& [pair, nodes] : nodes_of_pair) {
       const auto &a = conditions[pair.first], &b = conditions[pair.second];

@@ -13,22 +13,18 @@ Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
                           const std::vector<PrescribedComponent>& conditions)
     : fixed_(mesh.n_nodes() * dim, 0), values_(mesh.n_nodes() * dim, Ramp<double>{0., 0.}) {
   base::on_all_ranks(comm, [&] {
-    std::vector<const PrescribedComponent*> set_by(fixed_.size(), nullptr);
+    for (const auto& [first, second, node] : contradictions(mesh, conditions)) {
+      const auto& x = mesh.coordinates[node];
+      throw base::UserError(fmt::format(
+          "the displacements \"{}\" and \"{}\" prescribe different values for the {} component of the node at ({})",
+          conditions[first].name, conditions[second].name, "xyz"[conditions[second].component],
+          fmt::join(x.begin(), x.end(), ", ")));
+    }
     for (const auto& condition : conditions) {
       PERIMORPH_ASSERT(condition.component >= 0 && condition.component < dim, "\"{}\" prescribes component {}",
                        condition.name, condition.component);
       for (const int node : mesh.node_sets.at(condition.node_set)) {
         const int dof = node * dim + condition.component;
-        const auto* other = set_by[dof];
-        const bool contradicts = other != nullptr && (other->value.rate != condition.value.rate ||
-                                                      other->value.constant != condition.value.constant);
-        if (contradicts) {
-          throw base::UserError(fmt::format(
-              "the displacements \"{}\" and \"{}\" prescribe different values for the {} component of the node at ({})",
-              other->name, condition.name, "xyz"[condition.component],
-              fmt::join(mesh.coordinates[node].begin(), mesh.coordinates[node].end(), ", ")));
-        }
-        set_by[dof] = &condition;
         fixed_[dof] = 1;
         values_[dof] = condition.value;
       }

@@ -19,6 +19,11 @@ LINEAR_ALGEBRA_IN = {
     "operators": None,
     "solvers": None,
 }
+# Packages that only some of those after them may know: all others compute without a case file.
+KNOWN_ONLY_TO = {
+    "input": ["cases", "fracture"],
+    "cases": ["fracture"],
+}
 PUGIXML = re.compile(r"pugixml")
 PUGIXML_IN = {"input": None}
 EXODUS = re.compile(r"(exodusII|netcdf|hdf5)")
@@ -82,6 +87,15 @@ def undeclared_violations(source):
                     yield f"{file}:{line}: {header} is included, but {package} does not DEPEND on {parts[1]}"
 
 
+def secret_violations(source):
+    for package in ordered_packages(source):
+        for file in code_of(source / "packages" / package):
+            for line, header in includes(file):
+                known = header.split("/")[1] if header.startswith("perimorph/") else ""
+                if known in KNOWN_ONLY_TO and package not in [known, *KNOWN_ONLY_TO[known]]:
+                    yield f"{file}:{line}: {package} must not know {known}"
+
+
 def library_violations(source, headers, homes):
     for package in ordered_packages(source):
         for file in code_of(source / "packages" / package):
@@ -118,6 +132,7 @@ def violations(source):
         *include_violations(source),
         *depends_violations(source),
         *undeclared_violations(source),
+        *secret_violations(source),
         *library_violations(source, LINEAR_ALGEBRA, LINEAR_ALGEBRA_IN),
         *library_violations(source, EXODUS, EXODUS_IN),
         *library_violations(source, PUGIXML, PUGIXML_IN),
@@ -189,6 +204,10 @@ class PlantedViolations(unittest.TestCase):
     def test_an_undeclared_dependency(self):
         self.append("solvers/src/multigrid.cpp", '#include "perimorph/mesh/mesh.hpp"')
         self.assert_found("solvers does not DEPEND on mesh")
+
+    def test_a_package_that_knows_the_case_file(self):
+        self.append("model/src/problem.cpp", '#include "perimorph/input/mistakes.hpp"')
+        self.assert_found("model must not know input")
 
     def test_linear_algebra_outside_its_packages(self):
         self.append("bonds/src/visibility.cpp", "#include <Tpetra_CrsMatrix.hpp>")

@@ -23,6 +23,18 @@ struct PrescribedComponent {
   Ramp<double> value;
 };
 
+/// A node of which two conditions prescribe one component differently.
+struct Contradiction {
+  int first, second;  ///< conditions, by their place in the list; the first is the first of all that prescribe it
+  int node;
+};
+
+/// All contradictions, in the order of the second condition. Conditions on node sets that the mesh does not have are
+/// left out. Local.
+template <int dim>
+std::vector<Contradiction> contradictions(const mesh::Mesh<dim>& mesh,
+                                          const std::vector<PrescribedComponent>& conditions);
+
 /// Force per area, prescribed on a side set.
 template <int dim>
 struct SurfaceTraction {
