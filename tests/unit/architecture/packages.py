@@ -21,8 +21,8 @@ LINEAR_ALGEBRA_IN = {
 }
 # Packages that only some of those after them may know: all others compute without a case file.
 KNOWN_ONLY_TO = {
-    "input": ["cases", "fracture"],
-    "cases": ["fracture"],
+    "input": ["cases", "fracture", "application"],
+    "cases": ["fracture", "output", "application"],
 }
 PUGIXML = re.compile(r"pugixml")
 PUGIXML_IN = {"input": None}
