@@ -3,7 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <functional>
 #include <tuple>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/mesh/shared_sides.hpp"
 
 namespace perimorph::bonds {
 
@@ -43,22 +47,10 @@ bool is_open(const BondFamilies<dim>& bonds, int p) {
   return 2 * n_broken > bonds.first_bond(p + 1) - bonds.first_bond(p);
 }
 
-/// The side of one element whose corners another has too; -1 if there is none.
-template <int dim>
-int shared_side(const mesh::Mesh<dim>& mesh, int element, int other) {
-  const int *corners = mesh.corners_of(element), *others = mesh.corners_of(other);
-  const auto is_others = [&](int k) {
-    return std::find(others, others + mesh.n_corners(other), corners[k]) != others + mesh.n_corners(other);
-  };
-  const auto& sides = mesh::sides(mesh.types[element]);
-  const auto found = std::find_if(sides.begin(), sides.end(),
-                                  [&](const auto& s) { return std::all_of(s.begin(), s.end(), is_others); });
-  return found == sides.end() ? -1 : static_cast<int>(found - sides.begin());
-}
-
 /// Unit normal of the plane that fits the sides best.
 template <int dim>
 Point<dim> mean_normal(const std::vector<OpenSide<dim>>& sides, const std::vector<int>& chosen) {
+  PERIMORPH_ASSERT(!chosen.empty(), "no plane fits none of {} sides", sides.size());
   double weight = 0.;
   Point<dim> mean = Point<dim>::Zero();
   Eigen::Matrix<double, dim, dim> moments = Eigen::Matrix<double, dim, dim>::Zero();
@@ -83,7 +75,7 @@ std::vector<OpenSide<dim>> open_sides(const mesh::Mesh<dim>& mesh, const BondFam
   for (int p = 0; p < bonds.n_pairs(); ++p) {
     const auto [first, second] = bonds.pair(p);
     if (first == second || first >= mesh.n_owned_elements || !bonds.is_damaged(first) || !is_open(bonds, p)) continue;
-    const int s = shared_side(mesh, first, second);
+    const int s = mesh::shared_side(mesh, first, second);
     if (s < 0) continue;
     const auto points = mesh::corner_points(mesh, {first, s});
     OpenSide<dim> side{mesh.element_ids[first], mesh.element_ids[second], static_cast<int>(points.size()), {}};
@@ -91,6 +83,8 @@ std::vector<OpenSide<dim>> open_sides(const mesh::Mesh<dim>& mesh, const BondFam
     found.push_back(side);
   }
   std::sort(found.begin(), found.end());
+  PERIMORPH_DEBUG_ASSERT(std::adjacent_find(found.begin(), found.end(), std::not_fn(std::less<>())) == found.end(),
+                         "one of {} open sides is there twice", found.size());
   return found;
 }
 
@@ -101,7 +95,7 @@ std::vector<mesh::Side> broken_surface(const mesh::Mesh<dim>& mesh, const BondFa
     const auto [first, second] = bonds.pair(p);
     if (first == second || !bonds.is_damaged(first) || !is_open(bonds, p)) continue;
     for (const auto& [element, other] : {std::pair{first, second}, {second, first}}) {
-      const int side = shared_side(mesh, element, other);
+      const int side = mesh::shared_side(mesh, element, other);
       if (side >= 0 && element < mesh.n_owned_elements) surface.push_back({element, side});
     }
   }
@@ -113,11 +107,14 @@ std::vector<mesh::Side> broken_surface(const mesh::Mesh<dim>& mesh, const BondFa
 
 template <int dim>
 double size(const OpenSide<dim>& side) {
+  PERIMORPH_ASSERT(side.n_corners >= dim && side.n_corners <= OpenSide<dim>::max_corners, "a side of {} corners in {}D",
+                   side.n_corners, dim);
   return normal(side).norm();
 }
 
 template <int dim>
 double crack_size(const std::vector<OpenSide<dim>>& sides, double radius) {
+  PERIMORPH_ASSERT(radius >= 0., "a radius of {}", radius);
   std::vector<Point<dim>> centers;
   for (const auto& side : sides) centers.push_back(center(side));
   const base::PointTree<dim> tree(centers);

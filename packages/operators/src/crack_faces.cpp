@@ -2,30 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <map>
+#include <utility>
+
+#include "perimorph/mesh/shared_sides.hpp"
 
 namespace perimorph::operators {
 
 using base::Point;
 
 namespace {
-
-/// What both sides have in common: the places of their corners, ascending. Nodes on pre-cracks are doubled to the bit.
-template <int dim>
-using Places = std::vector<std::array<double, dim>>;
-
-template <int dim>
-Places<dim> places_of(const mesh::Mesh<dim>& mesh, const mesh::Side& side) {
-  Places<dim> places;
-  for (const auto& x : mesh::corner_points(mesh, side)) {
-    std::array<double, dim> place;
-    std::copy(x.begin(), x.end(), place.begin());
-    places.push_back(place);
-  }
-  std::sort(places.begin(), places.end());
-  return places;
-}
 
 /// All sides of elements that touch a discontinuous one, and the boundary, where pre-cracks are.
 template <int dim>
@@ -82,15 +67,11 @@ Point<dim> displacement_at(const CoupledModel<dim>& model, base::ConstField u, i
 
 template <int dim>
 std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>& mesh, const std::vector<char>& discontinuous) {
-  std::map<Places<dim>, mesh::Side> waiting;
   std::vector<FacingSides> facing;
-  for (const mesh::Side& side : sides_that_may_part(mesh, discontinuous)) {
-    const auto [other, is_first] = waiting.emplace(places_of(mesh, side), side);
-    if (is_first) continue;
-    FacingSides both{other->second, side};
-    const auto id = [&](const mesh::Side& one) { return mesh.element_ids[one.element]; };
-    if (id(both.second) < id(both.first)) std::swap(both.first, both.second);
-    if (both.first.element < mesh.n_owned_elements) facing.push_back(both);
+  const auto id = [&](const mesh::Side& side) { return mesh.element_ids[side.element]; };
+  for (auto [first, second] : mesh::coincident_sides(mesh, sides_that_may_part(mesh, discontinuous))) {
+    if (id(second) < id(first)) std::swap(first, second);
+    if (first.element < mesh.n_owned_elements) facing.push_back({first, second});
   }
   return facing;
 }
