@@ -18,6 +18,7 @@ enum class Failure : int { none, user, computation, bug };
 }
 
 std::string broadcast_from(const Comm& comm, int root, std::string text) {
+  PERIMORPH_ASSERT(root >= 0 && root < comm.getSize(), "rank {} of {}", root, comm.getSize());
   int length = static_cast<int>(text.size());
   Teuchos::broadcast(comm, root, &length);
   text.resize(length);
@@ -69,6 +70,8 @@ double max(const Comm& comm, double value) { return reduce(comm, Teuchos::REDUCE
 GlobalId max(const Comm& comm, GlobalId value) { return reduce(comm, Teuchos::REDUCE_MAX, value); }
 
 void sum(const Comm& comm, std::vector<double>& values) {
+  const auto n = static_cast<GlobalId>(values.size());
+  PERIMORPH_DEBUG_ASSERT(max(comm, n) == n && max(comm, -n) == -n, "{} values here, other ranks have more or fewer", n);
   const std::vector<double> local = values;
   Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, static_cast<int>(local.size()), local.data(), values.data());
 }

@@ -2,6 +2,8 @@
 
 #include <csignal>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::base {
 
 namespace {
@@ -9,6 +11,7 @@ namespace {
 // Signal handlers reach nothing but what is global.
 volatile std::sig_atomic_t stop_signal = 0;
 volatile std::sig_atomic_t checkpoint_asked = 0;
+bool is_noting = false;  // there is one Signals at a time
 
 void note_stop(int signal) {
   stop_signal = signal;
@@ -20,6 +23,8 @@ void note_checkpoint(int) { checkpoint_asked = 1; }
 }  // namespace
 
 Signals::Signals() {
+  PERIMORPH_ASSERT(!is_noting, "signals are noted already: {}", is_noting);
+  is_noting = true;
   stop_signal = checkpoint_asked = 0;
   old_terminate_ = std::signal(SIGTERM, note_stop);
   old_interrupt_ = std::signal(SIGINT, note_stop);
@@ -27,6 +32,7 @@ Signals::Signals() {
 }
 
 Signals::~Signals() {
+  is_noting = false;
   std::signal(SIGTERM, old_terminate_);
   std::signal(SIGINT, old_interrupt_);
   std::signal(SIGUSR1, old_user_);

@@ -24,6 +24,7 @@ BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::Mat
       family_volume_(points.size(), 0.),
       lost_volume_(points.size(), 0.),
       damaged_(mesh.n_elements(), 0) {
+  check_arguments();
   for (int e = 0; e < mesh.n_elements(); ++e) {
     centroids_.push_back(mesh::centroid(mesh, e));
     radii_.push_back(mesh::radius(mesh, e));
@@ -33,8 +34,21 @@ BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::Mat
 }
 
 template <int dim>
+void BondFamilies<dim>::check_arguments() const {
+  const auto& [tau0, length, horizon] = micromodulus_;
+  PERIMORPH_ASSERT(static_cast<int>(active_.size()) == mesh_.n_elements(), "{} marks for {} elements", active_.size(),
+                   mesh_.n_elements());
+  PERIMORPH_ASSERT(points_.first(mesh_.n_elements()) == points_.size(), "{} points, {} of them in {} elements",
+                   points_.size(), points_.first(mesh_.n_elements()), mesh_.n_elements());
+  PERIMORPH_ASSERT(std::isfinite(tau0) && tau0 > 0., "tau0 is {}", tau0);
+  PERIMORPH_ASSERT(std::isfinite(length) && length > 0., "the characteristic length is {}", length);
+  PERIMORPH_ASSERT(std::isfinite(horizon) && horizon > 0., "the horizon is {}", horizon);
+}
+
+template <int dim>
 void BondFamilies<dim>::extend(const std::vector<int>& elements) {
   for (const int e : elements) {
+    PERIMORPH_ASSERT(mesh_.has_element(e), "element {} of {}", e, mesh_.n_elements());
     if (searched_[e]) continue;
     searched_[e] = 1;
     const double reach = (1. + 1e-6) * (micromodulus_.horizon + radii_[e]);
@@ -53,6 +67,8 @@ void BondFamilies<dim>::extend(const std::vector<int>& elements) {
 
 template <int dim>
 void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles) {
+  PERIMORPH_DEBUG_ASSERT(mesh_.element_ids[a] <= mesh_.element_ids[b], "element {} stands before {}",
+                         mesh_.element_ids[a], mesh_.element_ids[b]);
   const int first_a = points_.first(a), first_b = points_.first(b);
   std::vector<Point<dim>> ends;
   for (int q = 0; q < points_.count(a); ++q) ends.push_back(points_.position(first_a + q));
@@ -90,6 +106,7 @@ double BondFamilies<dim>::stiffness_on_the_fly(int first_point, int second_point
 
 template <int dim>
 int BondFamilies<dim>::pair_of(BondId b) const {
+  PERIMORPH_ASSERT(b < n_bonds(), "bond {} of {}", b, n_bonds());
   return static_cast<int>(std::upper_bound(first_bond_.begin(), first_bond_.end(), b) - first_bond_.begin()) - 1;
 }
 
@@ -104,6 +121,8 @@ std::size_t BondFamilies<dim>::bytes() const {
 
 template <int dim>
 BondId BondFamilies<dim>::find(int first, int first_end, int second, int second_end) const {
+  PERIMORPH_ASSERT(mesh_.has_element(first) && mesh_.has_element(second), "elements {} and {} of {}", first, second,
+                   mesh_.n_elements());
   for (const int p : pairs_of_[first]) {
     if (pairs_[p].first != first || pairs_[p].second != second) continue;
     for (BondId b = first_bond_[p]; b < first_bond_[p + 1]; ++b) {
@@ -117,6 +136,9 @@ template <int dim>
 void BondFamilies<dim>::take(const BondChange& change) {
   for (const BondId b : change.broken) {
     const Bond<dim> bond = this->bond(b);
+    PERIMORPH_ASSERT(!bond.is_broken, "bond {} breaks again", b);
+    PERIMORPH_ASSERT(bond.first_element != bond.second_element, "bond {} within element {} breaks", b,
+                     bond.first_element);
     ends_[b] = static_cast<std::uint16_t>(ends_[b] | broken_bit);
     damaged_[bond.first_element] = damaged_[bond.second_element] = 1;
     lost_volume_[bond.first_point] += points_.weight(bond.second_point);
@@ -146,6 +168,11 @@ template <int dim>
 template <class Visit>
 void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& displacements, double critical_stretch,
                                                const std::vector<morphing::ElementClass>& classes, Visit visit) const {
+  PERIMORPH_ASSERT(static_cast<int>(displacements.size()) == points_.size(), "{} displacements of {} points",
+                   displacements.size(), points_.size());
+  PERIMORPH_ASSERT(static_cast<int>(classes.size()) == mesh_.n_elements(), "{} classes of {} elements", classes.size(),
+                   mesh_.n_elements());
+  PERIMORPH_ASSERT(critical_stretch >= 0., "a critical stretch of {}", critical_stretch);
   // s = |xi + eta| / |xi| - 1 >= s_crit, without the roots   [WHL19, eq. 6, 7]
   const double critical = (1. + critical_stretch) * (1. + critical_stretch);
   for (int p = 0; p < n_pairs(); ++p) {
@@ -157,6 +184,7 @@ void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& di
     for_each_bond(p, [&](const Bond<dim>& bond) {
       if (bond.is_broken) return;
       const Point<dim> eta = displacements[bond.second_point] - displacements[bond.first_point];
+      PERIMORPH_DEBUG_ASSERT(eta.allFinite(), "a point of bond {} is displaced to nowhere", bond.id);
       if ((bond.xi + eta).squaredNorm() < critical * bond.xi.squaredNorm()) return;
       visit(bond, (bond.xi + eta).squaredNorm() / bond.xi.squaredNorm());
     });

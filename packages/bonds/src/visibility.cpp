@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::bonds {
 
 namespace {
@@ -64,6 +66,11 @@ base::Point<dim> normal(const mesh::CrackFacet<dim>& facet) {
 template <int dim>
 Visibility<dim>::Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet>& pre_cracks)
     : pre_cracks_(pre_cracks) {
+  for (const auto& facet : pre_cracks_) {
+    for (const auto& corner : facet) {
+      PERIMORPH_ASSERT(corner.allFinite(), "one of {} facets of pre-cracks is nowhere", pre_cracks_.size());
+    }
+  }
   for (const auto& side : mesh.boundary) {
     const auto corners = mesh::corner_points(mesh, side);
     for (std::size_t k = dim - 1; k < corners.size(); ++k) {  // a fan: one segment in 2D, one or two triangles in 3D
@@ -83,6 +90,7 @@ Visibility<dim>::Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet
 
 template <int dim>
 std::vector<mesh::CrackFacet<dim>> Visibility<dim>::near(const base::Point<dim>& center, double reach) const {
+  PERIMORPH_ASSERT(reach >= 0., "a reach of {}", reach);
   std::vector<Facet> found;
   for (const int f : tree_->within(center, reach + largest_radius_)) found.push_back(boundary_[f]);
   for (const auto& facet : pre_cracks_) {
@@ -94,6 +102,7 @@ std::vector<mesh::CrackFacet<dim>> Visibility<dim>::near(const base::Point<dim>&
 template <int dim>
 std::vector<mesh::CrackFacet<dim>> Visibility<dim>::among(const std::vector<Facet>& facets,
                                                           const std::vector<base::Point<dim>>& points) {
+  PERIMORPH_ASSERT(!points.empty(), "{} facets between no points", facets.size());
   std::vector<Facet> found;
   const auto box = box_around(points);
   for (const auto& facet : facets) {

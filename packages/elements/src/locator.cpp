@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::elements {
 
 template <int dim>
@@ -16,6 +18,7 @@ Locator<dim>::Locator(const mesh::Mesh<dim>& mesh) : mesh_(mesh) {
 
 template <int dim>
 std::optional<Location> Locator<dim>::find(const base::Point<dim>& x) const {
+  PERIMORPH_ASSERT(x.allFinite(), "a point in {} dimensions is nowhere", dim);
   constexpr double more = 1. + 1e-5;  // than the elements, so that rounding leaves none out
   for (const int e : centroids_->within(x, more * largest_radius_)) {  // ascending, as global ids are
     if ((mesh::centroid(mesh_, e) - x).norm() > more * mesh::radius(mesh_, e)) continue;

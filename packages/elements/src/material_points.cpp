@@ -1,14 +1,14 @@
 #include "perimorph/elements/material_points.hpp"
 
 #include <Eigen/LU>
-
-#include "perimorph/base/errors.hpp"
+#include <limits>
 
 namespace perimorph::elements {
 
 template <int dim>
 MaterialPoints<dim>::MaterialPoints(const mesh::Mesh<dim>& mesh, int points_per_direction) : mesh_(mesh) {
   first_ = {0};
+  PERIMORPH_ASSERT(mesh.n_elements() <= std::numeric_limits<int>::max() / max_points, "{} elements", mesh.n_elements());
   for (int e = 0; e < mesh.n_elements(); ++e) {
     references_.push_back(&reference_element<dim>(mesh.types[e], points_per_direction));
     const auto& reference = *references_.back();
@@ -27,6 +27,7 @@ MaterialPoints<dim>::MaterialPoints(const mesh::Mesh<dim>& mesh, int points_per_
 
 template <int dim>
 ShapeGradients<dim> MaterialPoints<dim>::gradients(int element, int q) const {
+  PERIMORPH_DEBUG_ASSERT(q >= 0 && q < count(element), "point {} of {} of element {}", q, count(element), element);
   return jacobian(element, q).inverse().transpose() * references_[element]->gradients[q];
 }
 

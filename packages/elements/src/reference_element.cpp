@@ -91,6 +91,9 @@ const ReferenceElement<dim>& reference_element(ElementType type, int points_per_
 template <int dim>
 std::optional<CornerValues> shape_at(ElementType type, const std::vector<base::Point<dim>>& corners,
                                      const base::Point<dim>& x) {
+  PERIMORPH_ASSERT(static_cast<int>(corners.size()) == mesh::n_corners(type), "{} corners of a {}", corners.size(),
+                   mesh::exodus_name(type));
+  PERIMORPH_ASSERT(x.allFinite(), "a point in {} dimensions is nowhere", dim);
   constexpr double tolerance = 1e-6;
   using Tools = Intrepid2::CellTools<Device>;
   const auto basis = linear_basis(type);

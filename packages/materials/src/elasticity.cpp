@@ -1,5 +1,7 @@
 #include "perimorph/materials/elasticity.hpp"
 
+#include <cmath>
+
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::materials {
@@ -9,6 +11,9 @@ double bond_based_poissons_ratio(ElasticModel model) { return model == ElasticMo
 template <int dim>
 base::Stiffness<dim> elasticity_tensor(ElasticModel model, double youngs_modulus, double poissons_ratio) {
   PERIMORPH_ASSERT((model == ElasticModel::three_dimensional) == (dim == 3), "dimension {}", dim);
+  PERIMORPH_ASSERT(std::isfinite(youngs_modulus) && youngs_modulus > 0., "Young's modulus is {}", youngs_modulus);
+  PERIMORPH_ASSERT(poissons_ratio > -1. && poissons_ratio < (model == ElasticModel::plane_stress ? 1. : 0.5),
+                   "Poisson's ratio is {}", poissons_ratio);
   const double nu = poissons_ratio;
   const double mu = youngs_modulus / (2. * (1. + nu));
   // Plane stress eliminates the strain through the thickness; otherwise lambda is that of three dimensions.

@@ -14,6 +14,10 @@ double energy_per_squared_stretch(const Micromodulus& c) {
 }  // namespace
 
 double kernel_moment(int n, double characteristic_length, double horizon) {
+  PERIMORPH_ASSERT(n >= 0, "the moment of r^{}", n);
+  PERIMORPH_ASSERT(std::isfinite(characteristic_length) && characteristic_length > 0., "a characteristic length of {}",
+                   characteristic_length);
+  PERIMORPH_ASSERT(std::isfinite(horizon) && horizon > 0., "a horizon of {}", horizon);
   // I_n = n! l^(n+1) (1 - exp(-x) Sum_{k<=n} x^k/k!),  x = delta/l; for small x the tail of the exponential series.
   const double x = horizon / characteristic_length;
   double factorial = 1., term = 1.;
@@ -40,11 +44,13 @@ Micromodulus calibrate(ElasticModel model, double youngs_modulus, double charact
 
 template <int dim>
 double fracture_energy(const Micromodulus& micromodulus, double critical_stretch) {
+  PERIMORPH_ASSERT(critical_stretch >= 0., "a critical stretch of {}", critical_stretch);
   return critical_stretch * critical_stretch * energy_per_squared_stretch<dim>(micromodulus);
 }
 
 template <int dim>
 double critical_stretch(const Micromodulus& micromodulus, double energy) {
+  PERIMORPH_ASSERT(energy >= 0., "a fracture energy of {}", energy);
   return std::sqrt(energy / energy_per_squared_stretch<dim>(micromodulus));
 }
 

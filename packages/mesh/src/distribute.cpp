@@ -204,11 +204,13 @@ Mesh<dim> cut_out(const Mesh<dim>& whole, const Owners& owner, const std::vector
 
 template <int dim>
 void check_input(const Mesh<dim>& whole, double halo_width, const std::vector<double>& weights) {
-  PERIMORPH_ASSERT(whole.n_global_elements == whole.n_elements() && whole.n_global_nodes == whole.n_nodes(),
-                   "{} of {} elements: the mesh is not whole", whole.n_elements(), whole.n_global_elements);
+  check_consistency(whole);
+  PERIMORPH_ASSERT(whole.is_whole(), "{} of {} elements are here", whole.n_elements(), whole.n_global_elements);
   PERIMORPH_ASSERT(std::isfinite(halo_width) && halo_width >= 0., "the halo's width is {}", halo_width);
   PERIMORPH_ASSERT(weights.empty() || static_cast<int>(weights.size()) == whole.n_elements(),
                    "{} weights for {} elements", weights.size(), whole.n_elements());
+  PERIMORPH_ASSERT(std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w) && w >= 0.; }),
+                   "one of {} weights is no cost", weights.size());
 }
 
 /// One message per rank.
@@ -238,7 +240,10 @@ Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& whole, double halo
   const auto incoming = base::exchange(comm, outgoing);
 
   Mesh<dim> part;
-  base::on_all_ranks(comm, [&] { part = unpack<dim>(incoming[0]); });
+  base::on_all_ranks(comm, [&] {
+    part = unpack<dim>(incoming[0]);
+    check_consistency(part);
+  });
   return part;
 }
 

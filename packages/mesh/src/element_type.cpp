@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "perimorph/base/errors.hpp"
 #include "topology.hpp"
 
 namespace perimorph::mesh {
@@ -19,6 +20,12 @@ struct Properties {
 /// In the order of ElementType.
 constexpr std::array<Properties, n_types> properties = {
     {{3, 2, "TRI3"}, {4, 2, "QUAD4"}, {4, 3, "TETRA4"}, {5, 3, "PYRAMID5"}, {6, 3, "WEDGE6"}, {8, 3, "HEX8"}}};
+
+const Properties& properties_of(ElementType type) {
+  const auto t = static_cast<std::size_t>(type);
+  PERIMORPH_DEBUG_ASSERT(t < properties.size(), "element type {}", t);
+  return properties[t];
+}
 
 using Corners = std::vector<int>;
 
@@ -42,12 +49,13 @@ std::array<std::vector<Corners>, n_types> sides_of_all_types() {
 
 }  // namespace
 
-int n_corners(ElementType type) { return properties[static_cast<int>(type)].n_corners; }
-int dimension(ElementType type) { return properties[static_cast<int>(type)].dimension; }
-std::string exodus_name(ElementType type) { return properties[static_cast<int>(type)].exodus_name; }
+int n_corners(ElementType type) { return properties_of(type).n_corners; }
+int dimension(ElementType type) { return properties_of(type).dimension; }
+std::string exodus_name(ElementType type) { return properties_of(type).exodus_name; }
 
 const std::vector<std::vector<int>>& sides(ElementType type) {
   static const auto all = sides_of_all_types();
+  PERIMORPH_DEBUG_ASSERT(static_cast<std::size_t>(type) < all.size(), "element type {}", static_cast<int>(type));
   return all[static_cast<int>(type)];
 }
 

@@ -28,6 +28,7 @@ class Hash {
 
 template <int dim>
 GlobalId fingerprint(const Mesh<dim>& whole) {
+  PERIMORPH_ASSERT(whole.is_whole(), "{} of {} elements are here", whole.n_elements(), whole.n_global_elements);
   Hash hash;
   for (const auto& x : whole.coordinates) hash.add(x.data(), dim * sizeof(double));
   hash.add(whole.types);

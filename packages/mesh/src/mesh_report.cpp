@@ -102,6 +102,8 @@ std::string quality(const Mesh<dim>& mesh) {
 
 template <int dim>
 std::string describe(const Mesh<dim>& whole) {
+  PERIMORPH_ASSERT(whole.is_whole() && whole.n_elements() > 0, "{} of {} elements are here", whole.n_elements(),
+                   whole.n_global_elements);
   Eigen::AlignedBox<double, dim> box;
   for (const auto& point : whole.coordinates) box.extend(point);
   const Range edges = edge_lengths(whole);

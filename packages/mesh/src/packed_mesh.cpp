@@ -55,6 +55,7 @@ class Packer {
 class Unpacker {
  public:
   explicit Unpacker(const std::vector<PackedWord>& words) : words_(words) {}
+  std::size_t n_left() const { return words_.size() - position_; }
 
   template <class T>
   std::enable_if_t<std::is_arithmetic_v<T>> operator()(T& value) {
@@ -134,6 +135,7 @@ Mesh<dim> unpack(const std::vector<PackedWord>& words) {
   Mesh<dim> mesh;
   Unpacker unpacker(words);
   visit(mesh, unpacker);
+  PERIMORPH_ASSERT(unpacker.n_left() == 0, "{} words of {} are left", unpacker.n_left(), words.size());
   return mesh;
 }
 

@@ -14,6 +14,8 @@ using PackedWord = std::uint64_t;
 template <int dim>
 std::vector<PackedWord> pack(const Mesh<dim>& mesh);
 
+/// The mesh that pack() made a message of.
+/// @throws Bug if the message is shorter or longer than its own counts say
 template <int dim>
 Mesh<dim> unpack(const std::vector<PackedWord>& words);
 

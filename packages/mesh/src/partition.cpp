@@ -7,7 +7,10 @@
 #include <Zoltan2_BasicVectorAdapter.hpp>
 #include <Zoltan2_PartitioningProblem.hpp>
 #include <Zoltan2_PartitioningSolution.hpp>
+#include <algorithm>
 #include <numeric>
+
+#include "perimorph/base/errors.hpp"
 
 namespace perimorph::mesh {
 
@@ -39,6 +42,11 @@ template <int dim>
 std::vector<int> partition(const std::vector<base::Point<dim>>& points, const std::vector<double>& weights,
                            int n_parts) {
   static_assert(sizeof(base::Point<dim>) == dim * sizeof(double), "points are strided arrays of coordinates");
+  PERIMORPH_ASSERT(n_parts >= 1, "{} parts", n_parts);
+  PERIMORPH_ASSERT(weights.empty() || weights.size() == points.size(), "{} weights of {} points", weights.size(),
+                   points.size());
+  PERIMORPH_ASSERT(std::all_of(points.begin(), points.end(), [](const auto& x) { return x.allFinite(); }),
+                   "one of {} points is nowhere", points.size());
   if (n_parts == 1 || points.empty()) return std::vector<int>(points.size(), 0);
 
   std::vector<base::GlobalId> ids(points.size());

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/sorted_sides.hpp"
 
 namespace perimorph::mesh {
@@ -35,6 +36,13 @@ double distance(const Point<dim>& point, const Points<dim>& simplex) {
     nearest = std::min(nearest, distance<dim>(point, side));
   }
   return nearest;
+}
+
+template <int dim>
+bool are_finite(const std::vector<CrackFacet<dim>>& facets) {
+  return std::all_of(facets.begin(), facets.end(), [](const CrackFacet<dim>& facet) {
+    return std::all_of(facet.begin(), facet.end(), [](const auto& corner) { return corner.allFinite(); });
+  });
 }
 
 /// A pre-crack that can be asked whether a side of an element lies on it.
@@ -178,12 +186,14 @@ bool is_open(const Mesh<dim>& mesh, const InnerSide& side) {
 }  // namespace
 
 std::vector<CrackFacet<2>> polyline(const std::vector<Point<2>>& corners) {
+  PERIMORPH_ASSERT(corners.size() >= 2, "a line through {} points", corners.size());
   std::vector<CrackFacet<2>> segments;
   for (std::size_t i = 1; i < corners.size(); ++i) segments.push_back({corners[i - 1], corners[i]});
   return segments;
 }
 
 std::vector<CrackFacet<3>> polygon(const std::vector<Point<3>>& corners) {
+  PERIMORPH_ASSERT(corners.size() >= 3, "a polygon of {} corners", corners.size());
   std::vector<CrackFacet<3>> triangles;
   for (std::size_t i = 2; i < corners.size(); ++i) triangles.push_back({corners[0], corners[i - 1], corners[i]});
   return triangles;
@@ -192,6 +202,8 @@ std::vector<CrackFacet<3>> polygon(const std::vector<Point<3>>& corners) {
 std::vector<CrackFacet<3>> disc(const Point<3>& center, const Point<3>& normal, double radius) {
   constexpr int n_sides = 64;
   constexpr double pi = 3.14159265358979323846;
+  PERIMORPH_ASSERT(radius > 0., "a disc of radius {}", radius);
+  PERIMORPH_ASSERT(normal.norm() > 0., "a normal of length {}", normal.norm());
   const Point<3> across = normal.normalized().unitOrthogonal(), along = normal.normalized().cross(across);
   const double to_corner = radius / std::cos(pi / n_sides);
   const auto corner = [&](int i) -> Point<3> {
@@ -205,6 +217,8 @@ std::vector<CrackFacet<3>> disc(const Point<3>& center, const Point<3>& normal, 
 
 template <int dim>
 int open_along(Mesh<dim>& whole, const std::vector<CrackFacet<dim>>& crack) {
+  PERIMORPH_ASSERT(whole.is_whole(), "{} of {} elements are here", whole.n_elements(), whole.n_global_elements);
+  PERIMORPH_ASSERT(are_finite<dim>(crack), "one of {} facets is nowhere", crack.size());
   const std::vector<InnerSide> inner = inner_sides(whole, Crack<dim>(crack));
 
   std::map<int, std::vector<int>> copies;

@@ -28,10 +28,22 @@ constexpr std::size_t most_listed = 5;             // items shown in an error me
 constexpr std::size_t longest_name = 200;
 constexpr double largest_coordinate = 1e100;  // so that squares and volumes are finite numbers, too
 
-/// What something of a dimension is called.
+/// What gmsh calls an entity of a dimension.
 const char* entity_name(int dimension) {
   static constexpr std::array<const char*, 4> names = {"point", "curve", "surface", "volume"};
   return names.at(static_cast<std::size_t>(dimension));
+}
+
+/// Asserts that a reader has filled lists that belong together with as many items.
+void check_lengths(const MeshFile& file) {
+  const std::size_t n = file.n_elements();
+  PERIMORPH_ASSERT(file.node_tags.size() == file.coordinates.size(), "{} nodes, {} places", file.node_tags.size(),
+                   file.coordinates.size());
+  PERIMORPH_ASSERT(file.shapes.size() == n && file.element_groups.size() == n, "{} elements, {} shapes, {} groups", n,
+                   file.shapes.size(), file.element_groups.size());
+  PERIMORPH_ASSERT(file.first_node.size() == n + 1 && file.first_node.back() == file.element_nodes.size(),
+                   "{} elements, {} lists of nodes up to {} of {}", n, file.first_node.size(), file.first_node.back(),
+                   file.element_nodes.size());
 }
 
 template <int dim>
@@ -194,7 +206,7 @@ class MeshBuilder {
     return 0;
   }
 
-  // ---- checks of the whole ----
+  // ---- checks of the whole mesh ----
 
   void check_every_node_is_used() const {
     std::vector<char> used(mesh_.coordinates.size(), 0);
@@ -340,6 +352,8 @@ class MeshBuilder {
 
 template <int dim>
 Mesh<dim> build_mesh(const MeshFile& file, double scale) {
+  check_lengths(file);
+  PERIMORPH_ASSERT(scale > 0., "coordinates are scaled by {}", scale);
   return MeshBuilder<dim>(file, scale).build();
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::mesh_files {
 
 namespace {
@@ -19,16 +21,20 @@ int dimension(Shape shape) { return properties[static_cast<std::size_t>(shape)].
 int n_nodes(Shape shape) { return properties[static_cast<std::size_t>(shape)].n_nodes; }
 
 mesh::ElementType element_type(Shape shape) {
+  PERIMORPH_ASSERT(dimension(shape) >= 2, "shape {} is none of an element", static_cast<int>(shape));
   return static_cast<mesh::ElementType>(static_cast<int>(shape) - static_cast<int>(Shape::triangle));
 }
 
 void MeshFile::begin_element(std::int64_t tag, Shape shape, int group_list) {
+  PERIMORPH_ASSERT(group_list >= 0 && group_list < static_cast<int>(group_lists.size()), "list {} of {} of groups",
+                   group_list, group_lists.size());
   element_tags.push_back(tag);
   shapes.push_back(shape);
   element_groups.push_back(group_list);
 }
 
 void MeshFile::add_element(std::int64_t tag, Shape shape, int group_list, const std::vector<std::int64_t>& nodes) {
+  PERIMORPH_ASSERT(static_cast<int>(nodes.size()) == n_nodes(shape), "{} nodes of {}", nodes.size(), n_nodes(shape));
   begin_element(tag, shape, group_list);
   element_nodes.insert(element_nodes.end(), nodes.begin(), nodes.end());
   end_element();

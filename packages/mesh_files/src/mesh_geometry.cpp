@@ -35,8 +35,8 @@ std::vector<char*> pointers(Words& words) {
   return list;
 }
 
-/// This process' environment without what MPI's starter put there: some builds of gmsh are linked with MPI, and would
-/// take themselves for a rank of this run.
+/// This process' environment without what mpirun put there: some builds of gmsh are linked with MPI, and would take
+/// themselves for a rank of this run.
 Words environment_without_mpi() {
   Words kept;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -80,7 +80,7 @@ Outcome run(Words command) {
   return outcome;
 }
 
-/// The first lines (they name the cause) and the last ones, each different line once.
+/// The first lines (they name the cause) and the last ones, without repeated lines.
 std::string excerpt_of(const std::string& output) {
   std::istringstream stream(output);
   Words lines;
@@ -104,7 +104,7 @@ std::string how_it_ended(const Outcome& outcome) {
   return "gmsh wrote no mesh";
 }
 
-/// So that neither an older mesh nor the rest that a failed gmsh leaves is taken for the result.
+/// So that neither an older mesh nor what a failed gmsh left behind is taken for the result.
 void remove_quietly(const std::string& file) {
   std::error_code ignored;
   std::filesystem::remove(file, ignored);
@@ -113,6 +113,7 @@ void remove_quietly(const std::string& file) {
 }  // namespace
 
 void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension) {
+  PERIMORPH_ASSERT(dimension == 2 || dimension == 3, "a mesh of dimension {}", dimension);
   require_regular_file(geo_file, "a geometry of gmsh");
   remove_quietly(msh_file);
   const Outcome outcome =

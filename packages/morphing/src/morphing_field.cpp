@@ -5,19 +5,33 @@
 
 namespace perimorph::morphing {
 
+namespace {
+
+void check_radii(double inner, double outer) {
+  PERIMORPH_ASSERT(inner >= 0. && outer >= inner, "alpha is 1 up to the radius {} and 0 from {} on", inner, outer);
+}
+
+}  // namespace
+
 template <int dim>
 Zone<dim> Zone<dim>::ball(const base::Point<dim>& center, double inner_radius, double outer_radius) {
+  check_radii(inner_radius, outer_radius);
+  PERIMORPH_ASSERT(center.allFinite(), "the center of a ball of radius {} is nowhere", inner_radius);
   return {center, center, inner_radius, outer_radius - inner_radius};
 }
 
 template <int dim>
 Zone<dim> Zone<dim>::box(const base::Point<dim>& lower, const base::Point<dim>& upper, double rim) {
+  PERIMORPH_ASSERT((lower.array() <= upper.array()).all(), "a box of the extent {}", (upper - lower).minCoeff());
+  PERIMORPH_ASSERT(rim >= 0., "a rim of {}", rim);
   return {lower, upper, 0., rim};
 }
 
 template <int dim>
 Zone<dim> Zone<dim>::cylinder(const base::Point<dim>& start, const base::Point<dim>& end, double inner_radius,
                               double outer_radius) {
+  check_radii(inner_radius, outer_radius);
+  PERIMORPH_ASSERT((end - start).squaredNorm() > 0., "an axis of length {}", (end - start).norm());
   return {start, end, inner_radius, outer_radius - inner_radius, Core::line};
 }
 
@@ -51,7 +65,10 @@ MorphingField<dim>::MorphingField(const mesh::Mesh<dim>& mesh, const elements::M
       points_(points),
       function_(function),
       alpha_(points.size(), 0.),
-      carries_bonds_(mesh.n_elements(), 0) {}
+      carries_bonds_(mesh.n_elements(), 0) {
+  PERIMORPH_ASSERT(points.first(mesh.n_elements()) == points.size(), "{} points, {} of them in {} elements",
+                   points.size(), points.first(mesh.n_elements()), mesh.n_elements());
+}
 
 template <int dim>
 std::vector<int> MorphingField<dim>::add(const std::vector<Zone<dim>>& zones) {
@@ -65,6 +82,7 @@ std::vector<int> MorphingField<dim>::add(const std::vector<Zone<dim>>& zones) {
         if (alpha == 1.) break;
         alpha = std::max(alpha, zone.alpha(points_.position(p), function_));
       }
+      PERIMORPH_DEBUG_ASSERT(alpha >= alpha_[p] && alpha <= 1., "alpha goes from {} to {}", alpha_[p], alpha);
       rose = rose || alpha > alpha_[p];
       alpha_[p] = alpha;
     }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::base {
 namespace {
 
@@ -36,6 +38,12 @@ TEST(Duration, IsShortAndInTheUnitThatFits) {
   EXPECT_EQ(duration(170.), "3 min");
   EXPECT_EQ(duration(3599.), "1 h 0 min");
   EXPECT_EQ(duration(7500.), "2 h 5 min");
+}
+
+TEST(Pace, RefusesTimesThatRunBackwards) {
+  EXPECT_THROW(Pace().add(-1.), Bug);
+  EXPECT_THROW(Pace().left(0, 1.), Bug);
+  EXPECT_THROW(duration(-1.), Bug);
 }
 
 }  // namespace

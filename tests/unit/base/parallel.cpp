@@ -119,5 +119,18 @@ TEST_F(Parallel, TheTextOfRankZeroReachesAll) {
   EXPECT_EQ(broadcast(*comm, rank == 0 ? "" : "something"), "");
 }
 
+TEST_F(Parallel, AMessageToARankThatIsNotThereIsABug) {
+  EXPECT_THROW(base::exchange(*comm, std::vector<std::vector<int>>(n_ranks + 1)), Bug);
+}
+
+#ifdef PERIMORPH_DEBUG_ASSERTIONS
+TEST_F(Parallel, SumsOfDifferentLengthAreABug) {
+  std::vector<double> values(rank == 0 ? 2 : 3);
+  if (n_ranks > 1) {
+    EXPECT_THROW(sum(*comm, values), Bug);
+  }
+}
+#endif
+
 }  // namespace
 }  // namespace perimorph::base

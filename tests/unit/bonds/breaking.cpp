@@ -152,5 +152,38 @@ TEST_F(Breaking, DamageIsZeroWhereNothingBrokeAndBelowOneWhereEverythingBetweenE
   }
 }
 
+TEST_F(Breaking, ABondBreaksOnceAndNeverWithinAnElement) {
+  bonds::BondId within_an_element = 0, between_two = 0;
+  body.bonds.for_each_bond([&](const bonds::Bond<2>& bond) {
+    (bond.first_element == bond.second_element ? within_an_element : between_two) = bond.id;
+  });
+
+  body.bonds.take({{between_two}});
+
+  EXPECT_THROW(body.bonds.take({{between_two}}), base::Bug);
+  EXPECT_THROW(body.bonds.take({{within_an_element}}), base::Bug);
+  EXPECT_THROW(body.bonds.take({{body.bonds.n_bonds()}}), base::Bug);
+}
+
+TEST_F(Breaking, RefusesFieldsThatAreNotOfThisMesh) {
+  const auto u = widened(0.03);
+  EXPECT_THROW(body.bonds.overstretched({u.begin(), u.end() - 1}, critical_stretch, classes), base::Bug);
+  EXPECT_THROW(body.bonds.overstretched(u, critical_stretch, {ElementClass::pd}), base::Bug);
+  EXPECT_THROW(body.bonds.overstretched(u, -0.01, classes), base::Bug);
+  EXPECT_THROW(body.bonds.extend({body.mesh.n_elements()}), base::Bug);
+  EXPECT_THROW(body.bonds.find(-1, 0, 0, 0), base::Bug);
+}
+
+TEST_F(Breaking, RefusesAModelWithoutAHorizonOrWithMarksOfAnotherMesh) {
+  const auto make = [&](std::vector<char> active, const materials::Micromodulus& c0) {
+    bonds::BondFamilies<2>(body.mesh, body.points, std::move(active), c0, {});
+  };
+  const std::vector<char> active(body.mesh.n_elements(), 1);
+  EXPECT_NO_THROW(make(active, body.c0));
+  EXPECT_THROW(make({1, 0}, body.c0), base::Bug);
+  EXPECT_THROW(make(active, {100., 0.6, 0.}), base::Bug);
+  EXPECT_THROW(make(active, {std::nan(""), 0.6, 2.}), base::Bug);
+}
+
 }  // namespace
 }  // namespace perimorph::tests

@@ -152,5 +152,13 @@ TEST(Visibility, ATriangleBlocksThatABondPiercesInSpace) {
   EXPECT_FALSE(blocks(0.3, 0.3, 0.1, 1.));
 }
 
+TEST(Visibility, RefusesACrackThatIsNowhere) {
+  const mesh::Mesh<2> whole = grid({2, 2});
+  const Segment nowhere{Point2(0., 0.), Point2(std::nan(""), 1.)};
+  EXPECT_THROW(bonds::Visibility<2>(whole, {nowhere}), base::Bug);
+  EXPECT_THROW(bonds::Visibility<2>(whole, {}).near({0., 0.}, -1.), base::Bug);
+  EXPECT_THROW(bonds::Visibility<2>::among({}, {}), base::Bug);
+}
+
 }  // namespace
 }  // namespace perimorph::tests

@@ -90,5 +90,10 @@ TEST(ShapeInThreeDimensions, InterpolatesInAllElements) {
   }
 }
 
+TEST_P(Locator, RefusesAPointThatIsNowhere) {
+  EXPECT_THROW(locator.find({std::nan(""), 0.}), base::Bug);
+  EXPECT_THROW(elements::shape_at<2>(mesh::ElementType::tri3, {{0., 0.}, {1., 0.}}, {0., 0.}), base::Bug);
+}
+
 }  // namespace
 }  // namespace perimorph::tests

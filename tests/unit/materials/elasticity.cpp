@@ -4,6 +4,8 @@
 
 #include <Eigen/LU>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::materials {
 namespace {
 
@@ -47,6 +49,13 @@ TEST(ElasticityTensor, AtTheBondBasedRatioHasTheSymmetryOfCentralForces) {
   const auto c = elasticity_tensor<3>(ElasticModel::three_dimensional, e,
                                       bond_based_poissons_ratio(ElasticModel::three_dimensional));
   EXPECT_NEAR(c(0, 1), c(3, 3), rounding);
+}
+
+TEST(ElasticityTensor, RefusesModuliThatNoSolidHas) {
+  EXPECT_THROW(elasticity_tensor<2>(ElasticModel::three_dimensional, e, nu), base::Bug);
+  EXPECT_THROW(elasticity_tensor<2>(ElasticModel::plane_stress, -e, nu), base::Bug);
+  EXPECT_THROW(elasticity_tensor<2>(ElasticModel::plane_strain, e, 0.5), base::Bug);
+  EXPECT_THROW(elasticity_tensor<2>(ElasticModel::plane_stress, e, -1.), base::Bug);
 }
 
 }  // namespace

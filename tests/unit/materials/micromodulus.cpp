@@ -143,5 +143,15 @@ TEST(Decay, IsTheSameToTheBitInEveryPlace) {
   }
 }
 
+TEST(Micromodulus, RefusesLengthsAndStretchesThatAreNone) {
+  EXPECT_THROW(kernel_moment(-1, 1., 1.), base::Bug);
+  EXPECT_THROW(kernel_moment(5, 0., 1.), base::Bug);
+  EXPECT_THROW(calibrate<2>(ElasticModel::plane_stress, 1., 1., -3.), base::Bug);
+  EXPECT_THROW(calibrate<2>(ElasticModel::plane_stress, 0., 1., 3.), base::Bug);
+  const auto c0 = calibrate<2>(ElasticModel::plane_stress, 1., 1., 3.);
+  EXPECT_THROW(fracture_energy<2>(c0, -0.1), base::Bug);
+  EXPECT_THROW(critical_stretch<2>(c0, std::nan("")), base::Bug);
+}
+
 }  // namespace
 }  // namespace perimorph::materials

@@ -286,6 +286,28 @@ TYPED_TEST(Distribute, AnErrorOnRankZeroReachesAllRanks) {
 
   EXPECT_THROW(distribute(*comm, whole, horizon, {1., 2.}), base::Bug);
   EXPECT_THROW(distribute(*comm, whole, std::nan("")), base::Bug);
+  std::vector<double> weights(whole.n_elements(), 1.);
+  weights[2] = -1.;
+  EXPECT_THROW(distribute(*comm, whole, horizon, weights), base::Bug);
+}
+
+TYPED_TEST(Distribute, RefusesAMeshOfWhichTheListsDoNotFitEachOther) {
+  constexpr int dim = TypeParam::value;
+  const auto comm = Tpetra::getDefaultComm();
+  const Mesh<dim> whole = grid<dim>(many_cells<dim>());
+  Mesh<dim> without_an_owner = whole, without_a_node = whole, in_disorder = whole, in_no_block = whole;
+  without_an_owner.element_owners.pop_back();
+  --without_a_node.n_global_nodes;
+  std::swap(in_disorder.element_ids[0], in_disorder.element_ids[1]);
+  in_no_block.blocks[0] = 2;
+
+  EXPECT_THROW(distribute(*comm, without_an_owner, horizon), base::Bug);
+  EXPECT_THROW(distribute(*comm, without_a_node, horizon), base::Bug);
+  EXPECT_NO_THROW(check_consistency(whole));
+#ifdef PERIMORPH_DEBUG_ASSERTIONS
+  EXPECT_THROW(check_consistency(in_disorder), base::Bug);
+  EXPECT_THROW(check_consistency(in_no_block), base::Bug);
+#endif
 }
 
 }  // namespace

@@ -213,5 +213,16 @@ TEST(Disc, TheFacesInsideItAreOpened) {
   EXPECT_EQ(n_nodes_at<3>(mesh, {4., 3., 3.}), 1u);
 }
 
+TEST(PreCrack, RefusesWhatIsNoCrackAndAMeshThatIsNotWhole) {
+  EXPECT_THROW(polyline({{0., 0.}}), base::Bug);
+  EXPECT_THROW(polygon({{0., 0., 0.}, {1., 0., 0.}}), base::Bug);
+  EXPECT_THROW(disc({0., 0., 0.}, {0., 0., 0.}, 1.), base::Bug);
+  EXPECT_THROW(disc({0., 0., 0.}, {0., 0., 1.}, 0.), base::Bug);
+  Mesh<2> mesh = grid<2>({4, 4});
+  EXPECT_THROW(open_along<2>(mesh, {{Point<2>(0., 2.), Point<2>(std::nan(""), 2.)}}), base::Bug);
+  mesh.n_global_elements = 20;
+  EXPECT_THROW(open_along<2>(mesh, {{Point<2>(0., 2.), Point<2>(2., 2.)}}), base::Bug);
+}
+
 }  // namespace
 }  // namespace perimorph::mesh

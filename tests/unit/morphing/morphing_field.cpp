@@ -136,5 +136,18 @@ TEST_F(MorphingField, ElementsCarryBondsWhereItIsAboveZeroAtAPoint) {
   EXPECT_LT(n_carrying, mesh.n_elements() - 20);
 }
 
+TEST(Zone, RefusesWhatIsNoZone) {
+  EXPECT_THROW(Zone<2>::ball({0., 0.}, 2., 1.), base::Bug);
+  EXPECT_THROW(Zone<2>::ball({0., 0.}, -1., 1.), base::Bug);
+  EXPECT_THROW(Zone<2>::ball({std::nan(""), 0.}, 1., 2.), base::Bug);
+  EXPECT_THROW(Zone<2>::box({1., 0.}, {0., 1.}, 1.), base::Bug);
+  EXPECT_THROW(Zone<3>::cylinder({1., 2., 3.}, {1., 2., 3.}, 1., 2.), base::Bug);
+}
+
+TEST_F(MorphingField, RefusesPointsOfAnotherMesh) {
+  const mesh::Mesh<2> smaller = grid({2, 2});
+  EXPECT_THROW(morphing::MorphingField<2>(smaller, points, BlendingFunction::linear), base::Bug);
+}
+
 }  // namespace
 }  // namespace perimorph::tests

@@ -13,6 +13,8 @@ using Log = std::shared_ptr<spdlog::logger>;
 
 /// Rank 0's messages to the terminal (unless quiet; errors always) and, if a file is named, all of them to that file,
 /// anew or after what it holds. The other ranks' logger is silent. Local.
+/// @param file a path, or "" for none
+/// @param append whether messages follow what the file holds
 /// @throws UserError if the file cannot be written (on rank 0).
 Log make_log(const Comm& comm, bool quiet, const std::string& file = "", bool append = false);
 

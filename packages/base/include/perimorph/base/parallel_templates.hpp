@@ -2,9 +2,11 @@
 
 #include <mpi.h>
 
+#include <limits>
 #include <numeric>
 #include <type_traits>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/base/parallel.hpp"
 
 namespace perimorph::base {
@@ -30,6 +32,8 @@ class ItemType {
 };
 
 inline std::vector<int> offsets(const std::vector<int>& counts) {
+  const long long total = std::accumulate(counts.begin(), counts.end(), 0LL);
+  PERIMORPH_ASSERT(total <= std::numeric_limits<int>::max(), "a message of {} items", total);
   std::vector<int> first(counts.size() + 1, 0);
   std::partial_sum(counts.begin(), counts.end(), first.begin() + 1);
   return first;
@@ -69,6 +73,8 @@ std::vector<std::vector<T>> exchange(const Comm& comm, const std::vector<std::ve
   static_assert(std::is_trivially_copyable_v<T>);
   const MPI_Comm mpi = mpi_communicator(comm);
   const int n_ranks = comm.getSize();
+  PERIMORPH_ASSERT(static_cast<int>(outgoing.size()) == n_ranks, "messages to {} of {} ranks", outgoing.size(),
+                   n_ranks);
   std::vector<int> send_counts(n_ranks), receive_counts(n_ranks);
   for (int r = 0; r < n_ranks; ++r) send_counts[r] = static_cast<int>(outgoing[r].size());
   MPI_Alltoall(send_counts.data(), 1, MPI_INT, receive_counts.data(), 1, MPI_INT, mpi);

@@ -35,12 +35,15 @@ class Profile {
   };
 
   [[nodiscard]] Scope measure(Phase phase) { return Scope(*this, phase); }
+  /// One more call of a phase. @param seconds that it took, >= 0
   void add(Phase phase, double seconds) {
     seconds_[static_cast<int>(phase)] += seconds;
     ++calls_[static_cast<int>(phase)];
   }
 
+  /// What a phase has taken in all, [s].
   double seconds(Phase phase) const { return seconds_[static_cast<int>(phase)]; }
+  /// Since this was made, [s].
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   /// A table of phases: seconds, share of the elapsed time, calls.

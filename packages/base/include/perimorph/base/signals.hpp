@@ -6,9 +6,9 @@
 
 namespace perimorph::base {
 
-/// While one of these lives, SIGTERM, SIGINT and SIGUSR1 do not end the program but are noted, for a computation that
-/// looks at them where it can stop. A second SIGTERM or SIGINT ends the program at once. One at a time: signals
-/// belong to the process.
+/// While one of these lives, SIGTERM, SIGINT and SIGUSR1 do not end the program but are noted as requests, for a
+/// computation that asks for them where it can stop. A second SIGTERM or SIGINT ends the program at once. One at a
+/// time: signals belong to the process.
 class Signals {
  public:
   Signals();
@@ -16,12 +16,12 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// What came on any rank since the beginning: the name of the signal to stop at ("" if none came), and whether
-  /// SIGUSR1 came since the last look. Collective.
+  /// What signals on any rank have asked for.
   struct Requests {
-    std::string stop;
-    bool checkpoint;
+    std::string stop;  ///< the name of the signal that asks the run to stop, or ""
+    bool checkpoint;   ///< whether SIGUSR1 came since the last call
   };
+  /// Collective.
   Requests look(const Comm& comm);
 
  private:

@@ -6,7 +6,7 @@
 namespace perimorph::base {
 
 /// " - did you mean "..."?" with the candidate nearest to the name, or "" if none is near (Levenshtein distance
-/// up to the larger of 2 and a third of the length).
+/// up to the larger of 2 and a third of the length, ignoring case).
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates);
 
 /// The texts joined by a separator, each in double quotes.

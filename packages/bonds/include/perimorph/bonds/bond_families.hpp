@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/bonds/bond.hpp"
 #include "perimorph/bonds/bond_change.hpp"
 #include "perimorph/bonds/visibility.hpp"
@@ -25,75 +26,107 @@ enum class StiffnessStorage { stored, on_the_fly };
 template <int dim>
 class BondFamilies {
  public:
-  /// Local. The arguments must outlive this.
-  /// @param active elements around the nodes that this rank owns (mesh::active_elements)
+  /// No bonds yet: extend() adds them. Local. Mesh and points must outlive this.
+  /// @param points of that mesh
+  /// @param active per element, (n_elements): whether it is around a node that this rank owns (mesh::active_elements)
+  /// @param micromodulus the strength of bonds by their length, and the horizon
+  /// @param pre_cracks facets that no bond crosses, the same on all ranks, (n), [length]
+  /// @param kept whether stiffnesses are stored or computed from the points each time
   BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, std::vector<char> active,
                const materials::Micromodulus& micromodulus, const std::vector<mesh::CrackFacet<dim>>& pre_cracks,
                StiffnessStorage kept = StiffnessStorage::stored);
 
   /// Adds the bonds of elements that have come to carry bonds; those already known are passed over. Local.
+  /// @param elements local, in the order in which bonds get their numbers: MorphingField::add() returns them
   void extend(const std::vector<int>& elements);
 
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
   BondId n_bonds() const { return ends_.size(); }
-  const ElementPair& pair(int p) const { return pairs_[p]; }
-  BondId first_bond(int p) const { return first_bond_[p]; }
-  const std::vector<int>& pairs_of(int element) const { return pairs_of_[element]; }
-  bool is_active(int element) const { return active_[element]; }
+  const ElementPair& pair(int p) const {
+    PERIMORPH_DEBUG_ASSERT(p >= 0 && p < n_pairs(), "pair {} of {}", p, n_pairs());
+    return pairs_[p];
+  }
+  BondId first_bond(int p) const {
+    PERIMORPH_DEBUG_ASSERT(p >= 0 && p <= n_pairs(), "pair {} of {}", p, n_pairs());
+    return first_bond_[p];
+  }
+  /// The pairs that a local element is in, ascending.
+  const std::vector<int>& pairs_of(int element) const {
+    PERIMORPH_DEBUG_ASSERT(mesh_.has_element(element), "element {} of {}", element, mesh_.n_elements());
+    return pairs_of_[element];
+  }
+  bool is_active(int element) const {
+    PERIMORPH_DEBUG_ASSERT(mesh_.has_element(element), "element {} of {}", element, mesh_.n_elements());
+    return active_[element];
+  }
 
-  /// A bond of a pair, or one whose pair has to be looked up.
+  /// A bond of a pair, or one whose pair has to be looked up. Local.
   Bond<dim> bond(int pair, BondId b) const;
   Bond<dim> bond(BondId b) const { return bond(pair_of(b), b); }
 
-  /// Calls visit(const Bond<dim>&) for each bond of a pair, or of all pairs, by ascending number.
+  /// Calls visit(const Bond<dim>&) for each bond of a pair, or of all pairs, by ascending number. Local.
   template <class Visit>
   void for_each_bond(int pair, Visit&& visit) const;
   template <class Visit>
   void for_each_bond(Visit&& visit) const;
 
   /// Points at the bond's ends, counted within their elements.
-  int first_end(BondId b) const { return (ends_[b] & ~broken_bit) / elements::max_points; }
-  int second_end(BondId b) const { return (ends_[b] & ~broken_bit) % elements::max_points; }
+  int first_end(BondId b) const { return (ends_of(b) & ~broken_bit) / elements::max_points; }
+  int second_end(BondId b) const { return (ends_of(b) & ~broken_bit) % elements::max_points; }
   /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; in single
   /// precision, so that every form of the operator has the same bonds.
+  /// @param first_point,second_point its ends as local material points
   double stiffness(BondId b, int first_point, int second_point) const {
+    PERIMORPH_DEBUG_ASSERT(b < n_bonds(), "bond {} of {}", b, n_bonds());
     return computes_stiffness() ? stiffness_on_the_fly(first_point, second_point) : stiffness_[b];
   }
   double stiffness(const Bond<dim>& bond) const { return stiffness(bond.id, bond.first_point, bond.second_point); }
   bool computes_stiffness() const { return kept_ == StiffnessStorage::on_the_fly; }
   const materials::Micromodulus& micromodulus() const { return micromodulus_; }
-  bool broken(BondId b) const { return (ends_[b] & broken_bit) != 0; }
+  bool broken(BondId b) const { return (ends_of(b) & broken_bit) != 0; }
   int pair_of(BondId b) const;
 
-  /// Of memory, most of it 6 bytes a bond; 2 if stiffness is computed on the fly.
+  /// [bytes] of memory, most of it 6 bytes a bond; 2 if stiffness is computed on the fly.
   std::size_t bytes() const;
 
   /// The bond between two points of different elements, each told by element and number within it; n_bonds() if this
   /// rank has none. Local.
+  /// @param first,second local elements, in the order of the pair: the lower global id first
   BondId find(int first, int first_end, int second, int second_end) const;
 
   /// Share of a point's bonds, by volume, that are broken (Silling and Askari 2005). For active elements.
-  double damage(int point) const { return lost_volume_[point] / std::max(family_volume_[point], 1e-300); }
+  /// @param point local material point
+  /// @return 0 ... 1
+  double damage(int point) const {
+    PERIMORPH_DEBUG_ASSERT(point >= 0 && point < points_.size(), "point {} of {}", point, points_.size());
+    return lost_volume_[point] / std::max(family_volume_[point], 1e-300);
+  }
   /// Whether a bond of the element has broken. For active elements.
-  bool is_damaged(int element) const { return damaged_[element]; }
+  bool is_damaged(int element) const {
+    PERIMORPH_DEBUG_ASSERT(mesh_.has_element(element), "element {} of {}", element, mesh_.n_elements());
+    return damaged_[element];
+  }
 
-  /// Smallest and largest alpha over each point's neighbourhood, itself included. For active elements.
+  /// Smallest and largest alpha over each point's neighbourhood, itself included, (n_points). For active elements.
   struct Extremes {
     std::vector<double> smallest, largest;
   };
+  /// @param alpha at the points that the bonds join
   Extremes neighbourhood_extremes(const morphing::MorphingField<dim>& alpha) const;
 
   /// The intact bonds whose stretch reaches the critical one [WHL19, eq. 6, 7], between two different elements that
   /// both may break, ascending. Local: every rank that holds a bond decides alike.
   /// @param displacements at the points, (n_points), [length]; only those of elements with bonds are read
+  /// @param critical_stretch s_crit >= 0, [-]
+  /// @param classes by local element, (n_elements): those of PD may break
   std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
                                     const std::vector<morphing::ElementClass>& classes) const;
 
-  /// Their stretches; those of which this rank owns the first element, so that each comes from one rank. Local.
+  /// Their stretches, [-]; those of which this rank owns the first element, so that each comes from one rank. Local.
   std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
                                     const std::vector<morphing::ElementClass>& classes) const;
 
-  /// Marks bonds as broken. Local.
+  /// Marks bonds as broken: intact ones, between two different elements. Local.
   void take(const BondChange& change);
 
  private:
@@ -118,15 +151,21 @@ class BondFamilies {
   std::vector<double> family_volume_, lost_volume_;
   std::vector<char> damaged_;
 
+  std::uint16_t ends_of(BondId b) const {
+    PERIMORPH_DEBUG_ASSERT(b < n_bonds(), "bond {} of {}", b, n_bonds());
+    return ends_[b];
+  }
   double stiffness_on_the_fly(int first_point, int second_point) const;
   template <class Visit>
   void for_each_overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
                               const std::vector<morphing::ElementClass>& classes, Visit visit) const;
+  void check_arguments() const;
   void add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles);
 };
 
 template <int dim>
 inline Bond<dim> BondFamilies<dim>::bond(int pair, BondId b) const {
+  PERIMORPH_DEBUG_ASSERT(b >= first_bond(pair) && b < first_bond(pair + 1), "bond {} is not of pair {}", b, pair);
   const auto [first, second] = pairs_[pair];
   const int first_end = this->first_end(b), second_end = this->second_end(b);
   const int i = points_.first(first) + first_end, j = points_.first(second) + second_end;

@@ -11,8 +11,8 @@ namespace perimorph::elements {
 
 /// A place inside an element: a field is interpolated there by the shape function values.
 struct Location {
-  int element;
-  CornerValues shape;
+  int element;         ///< local
+  CornerValues shape;  ///< N_k there, (n_corners)
 };
 
 /// Finds the elements that hold given points, among those that this rank owns.
@@ -24,7 +24,7 @@ class Locator {
 
   /// Where a point is; none if it is in no owned element. On a side that elements share, it is in the one with the
   /// lowest global id. Local.
-  /// @param x (dim), [length]
+  /// @param x (dim), finite, [length]
   std::optional<Location> find(const base::Point<dim>& x) const;
 
  private:

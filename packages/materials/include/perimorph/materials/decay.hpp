@@ -6,13 +6,19 @@
 
 #include <Eigen/Core>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::materials {
 
 using EightValues = Eigen::Array<double, 8, 1>;
 
 /// exp(-r/l) of eight squared distances r^2 at once, in single precision: errors are some 1e-7 of exp(0). All who
 /// compute the stiffness of a bond on the fly call this, so that they have the same bits.
+/// @param squared_distances r^2, (8), [length^2]
+/// @param characteristic_length l > 0, [length]
 inline EightValues decay(const EightValues& squared_distances, double characteristic_length) {
+  PERIMORPH_DEBUG_ASSERT(characteristic_length > 0., "a characteristic length of {}", characteristic_length);
+  PERIMORPH_DEBUG_ASSERT(squared_distances.minCoeff() >= 0., "a squared distance of {}", squared_distances.minCoeff());
 #ifdef __AVX512VL__
   // 2^y = 2^n exp(f), n the nearest integer, |f| <= ln(2)/2, where eight terms of the series suffice.
   constexpr float reciprocal_factorials[] = {1.F / 720, 1.F / 120, 1.F / 24, 1.F / 6, 1.F / 2, 1.F, 1.F};

@@ -4,13 +4,17 @@
 
 namespace perimorph::materials {
 
+/// What the third dimension does: is free of stress, is not strained, or is computed.
 enum class ElasticModel { plane_stress, plane_strain, three_dimensional };
 
 /// The one Poisson's ratio that central pair forces can represent: 1/3 in plane stress, 1/4 in plane strain and 3D.
 double bond_based_poissons_ratio(ElasticModel model);
 
 /// Isotropic linear elasticity tensor E0 in Voigt notation with engineering shear, [stress].
-/// @param youngs_modulus [stress]
+/// @param model plane stress or plane strain in 2D, three_dimensional in 3D
+/// @param youngs_modulus E > 0, [stress]
+/// @param poissons_ratio nu, -1 < nu < 1/2, in plane stress -1 < nu < 1, [-]
+/// @return (n_voigt, n_voigt)
 template <int dim>
 base::Stiffness<dim> elasticity_tensor(ElasticModel model, double youngs_modulus, double poissons_ratio);
 

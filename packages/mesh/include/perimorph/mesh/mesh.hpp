@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "perimorph/base/algebra.hpp"
+#include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/element_type.hpp"
 
 namespace perimorph::mesh {
@@ -58,11 +59,29 @@ struct Mesh {
 
   int n_nodes() const { return static_cast<int>(coordinates.size()); }
   int n_elements() const { return static_cast<int>(types.size()); }
-  int n_corners(int element) const { return first_corner[element + 1] - first_corner[element]; }
-  const int* corners_of(int element) const { return corners.data() + first_corner[element]; }
+  int n_corners(int element) const {
+    PERIMORPH_DEBUG_ASSERT(has_element(element), "element {} of {}", element, n_elements());
+    return first_corner[element + 1] - first_corner[element];
+  }
+  /// The element's local nodes, (n_corners).
+  const int* corners_of(int element) const {
+    PERIMORPH_DEBUG_ASSERT(has_element(element), "element {} of {}", element, n_elements());
+    return corners.data() + first_corner[element];
+  }
+
+  bool has_element(int element) const { return element >= 0 && element < n_elements(); }
+  /// Whether nothing of the body is on other ranks.
+  bool is_whole() const { return n_global_elements == n_elements() && n_global_nodes == n_nodes(); }
 };
 
-/// Mean of an element's corners, [length].
+/// Asserts what Mesh says of itself: that its lists are as long as they must be; in the presets debug and sanitize also
+/// that every number in them names something, and that owned items come first, each part by ascending id. Local.
+/// @throws Bug
+template <int dim>
+void check_consistency(const Mesh<dim>& mesh);
+
+/// Mean of an element's corners, (dim), [length].
+/// @param element local index, here and below
 template <int dim>
 Point<dim> centroid(const Mesh<dim>& mesh, int element);
 
@@ -70,15 +89,16 @@ Point<dim> centroid(const Mesh<dim>& mesh, int element);
 template <int dim>
 double radius(const Mesh<dim>& mesh, int element);
 
-/// Corner coordinates of a side, in its outward order, [length].
+/// Corners of a side, in its outward order, (n_corners of the side), [length].
 template <int dim>
 std::vector<Point<dim>> corner_points(const Mesh<dim>& mesh, const Side& side);
 
-/// Mean length of all element edges, [length], of the local elements (an inner edge counts once per element).
+/// Mean length of the edges of the local elements, [length]: an inner edge counts once per element. Local.
 template <int dim>
 double mean_edge(const Mesh<dim>& mesh);
 
-/// Fills boundary with the sides that only one local element has. For a whole mesh only.
+/// Fills boundary with the sides that only one element has, ascending. For a whole mesh, or one that is being built and
+/// does not say yet how large the whole is. Local.
 template <int dim>
 void find_boundary(Mesh<dim>& mesh);
 

@@ -10,6 +10,7 @@ namespace perimorph::mesh {
 /// What identifies a side whichever element sees it: its local nodes, ascending, after -1 in each unused place.
 using SideKey = std::array<int, 4>;
 
+/// A side of an element with its key.
 struct KeyedSide {
   SideKey key;
   Side side;
@@ -19,10 +20,10 @@ inline bool operator<(const Side& a, const Side& b) {
   return a.element != b.element ? a.element < b.element : a.side < b.side;
 }
 
-/// The key of a side with these local nodes (at most four).
+/// The key of a side with these local nodes, (2 in 2D, 3 or 4 in 3D), in any order.
 SideKey side_key(const std::vector<int>& nodes);
 
-/// The local nodes of a side, in its outward order.
+/// The local nodes of a side, in its outward order, (n_corners of the side).
 template <int dim>
 std::vector<int> side_nodes(const Mesh<dim>& mesh, const Side& side);
 

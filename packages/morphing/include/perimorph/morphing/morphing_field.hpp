@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/elements/material_points.hpp"
 
 namespace perimorph::morphing {
@@ -19,13 +20,20 @@ struct Zone {
   double inner_radius, rim;
   Core core = Core::box;
 
+  /// @param center (dim), [length]
+  /// @param inner_radius up to which alpha = 1, >= 0, [length]
+  /// @param outer_radius from which on alpha = 0, >= inner_radius, [length]
   static Zone ball(const base::Point<dim>& center, double inner_radius, double outer_radius);
+  /// @param lower the corner with the smallest coordinates, (dim), [length]
+  /// @param upper the opposite one, (dim), [length]
+  /// @param rim >= 0, [length]
   static Zone box(const base::Point<dim>& lower, const base::Point<dim>& upper, double rim);
-  /// Around the line from start to end; the ends are round.
+  /// Around the line from start to end, which are not the same, (dim), [length]; the ends are round.
   static Zone cylinder(const base::Point<dim>& start, const base::Point<dim>& end, double inner_radius,
                        double outer_radius);
   static Zone everything();
 
+  /// Alpha at a point, 0 ... 1. @param x (dim), [length]
   double alpha(const base::Point<dim>& x, BlendingFunction function) const;
 
  private:
@@ -39,16 +47,25 @@ enum class ElementClass : signed char { fe = 0, morph = 1, pd = 2 };
 template <int dim>
 class MorphingField {
  public:
-  /// Local; points must outlive this.
+  /// Alpha is 0 everywhere until zones are added. Local; mesh and points must outlive this.
+  /// @param points of that mesh
   MorphingField(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, BlendingFunction function);
 
-  /// Adds zones; returns the local elements where alpha rose, ascending. Local (zones alike on all ranks).
+  /// Adds zones; returns the local elements where alpha rose, ascending. Local.
+  /// @param zones the same on all ranks
   std::vector<int> add(const std::vector<Zone<dim>>& zones);
 
-  double operator()(int point) const { return alpha_[point]; }
+  /// Alpha at a material point, 0 ... 1.
+  double operator()(int point) const {
+    PERIMORPH_DEBUG_ASSERT(point >= 0 && point < points_.size(), "point {} of {}", point, points_.size());
+    return alpha_[point];
+  }
 
   /// Whether alpha > 0 at any point of the element: then it carries bonds.
-  bool carries_bonds(int element) const { return carries_bonds_[element]; }
+  bool carries_bonds(int element) const {
+    PERIMORPH_DEBUG_ASSERT(mesh_.has_element(element), "element {} of {}", element, mesh_.n_elements());
+    return carries_bonds_[element];
+  }
 
  private:
   const mesh::Mesh<dim>& mesh_;
