@@ -25,7 +25,7 @@ const Advice advice = {"write PLANE182 elements for a 2D case, SOLID185 for a 3D
 constexpr std::size_t longest_command = 500;
 constexpr int widest_column = 60;
 
-// Places in a line of EBLOCK, SOLID.
+// Which field of a line of EBLOCK, SOLID is what.
 constexpr std::size_t material_field = 0, type_field = 1, count_field = 8, number_field = 10, n_fields = 11;
 constexpr std::size_t nodes_in_line = 8;
 
@@ -69,7 +69,7 @@ struct Reduced {
 
 std::size_t n_different(const Nodes& nodes) { return std::set<std::int64_t>(nodes.begin(), nodes.end()).size(); }
 
-/// A ring of nodes, each once where it stands beside itself.
+/// A ring of nodes without immediate repetitions.
 Nodes without_repetition(Nodes ring) {
   ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
   if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
@@ -142,7 +142,7 @@ class Reader {
     return value;
   }
 
-  /// The count in a command's field, -1 if it does not say.
+  /// The count in a command's field, -1 if there is none.
   std::int64_t announced(const std::vector<std::string>& fields, std::size_t field) const {
     return field < fields.size() && !fields[field].empty() ? whole_number(fields[field]) : -1;
   }

@@ -31,14 +31,14 @@ const std::map<std::string, std::vector<std::string>> shapes = {{"connect#", {"n
                                                                 {"ns_prop1", {"num_node_sets"}},
                                                                 {"ss_prop1", {"num_side_sets"}}};
 
-/// The largest lengths of the attributes that the library reads into a place of fixed size.
+/// The largest lengths of the attributes that the library reads into buffers of fixed size.
 const std::map<std::string, std::uint64_t> longest_attributes = {
     {"elem_type", 33},          {"title", 81},
     {"api_version", 1},         {"version", 1},
     {"file_size", 1},           {"floating_point_word_size", 1},
     {"maximum_name_length", 1}, {"int64_status", 1}};
 
-/// "connect12": "12".
+/// The digits at the end of a name: "12" of "connect12".
 std::string number_at_end(const std::string& name) { return name.substr(name.find_last_not_of("0123456789") + 1); }
 
 class Header {
@@ -95,7 +95,7 @@ class Header {
     fits_ = fits_ && n <= remaining() / count_size_;
     for (; fits_ && n > 0; --n) {
       const std::uint64_t dimension = count();
-      // Length 0 is that of the steps, which come first: anywhere else the library divides by it.
+      // Length 0 marks the time steps, which come first: anywhere else the library would divide by it.
       fits_ = fits_ && dimension < dimensions_.size() && (found.empty() || dimensions_[dimension].length > 0);
       if (fits_) found.push_back(dimensions_[dimension].name);
     }

@@ -29,7 +29,7 @@ constexpr int longest_name = 256;
 constexpr int first_side_of_shell = 2;       // its sides 1 and 2 are its faces
 constexpr std::int64_t best_packing = 1032;  // of HDF5's compression (deflate)
 
-// What reading an HDF5 file may take: more than any sound one does.
+// The limits for reading an HDF5 file: more than any sound one needs.
 constexpr std::size_t trial_memory = std::size_t{1} << 30U, trial_memory_per_byte = 100;
 constexpr std::size_t trial_seconds = 60, trial_bytes_per_second = 1000000;
 
@@ -37,7 +37,7 @@ const Advice advice = {"export the elements of what is to be computed, plane one
                        "Export only nodes that elements use",
                        "Number their nodes counterclockwise, seen from +z (in 3D so that volumes are positive)"};
 
-/// An element type as Exodus' writers spell it.
+/// An element type as programs that write Exodus files spell it.
 struct Spelling {
   const char* name;
   Shape shape;
@@ -59,7 +59,7 @@ Shape side_shape(int element_dimension, std::size_t n_side_nodes) {
 
 enum class Container { netcdf, hdf5 };
 
-/// What the file is by its first bytes, before a library opens it.
+/// What the first bytes say that the file is, before a library opens it.
 Container container_of(const std::string& file) {
   std::string start(8, '\0');
   std::ifstream stream(file, std::ios::binary);
@@ -77,7 +77,7 @@ Container container_of(const std::string& file) {
                                     file, excerpt(start)));
 }
 
-/// Keeps a library's own words off the terminal while it opens a file: they are wrong when the file is damaged.
+/// Keeps a library's own messages off the terminal while it opens a file: they mislead when the file is damaged.
 class Silence {
  public:
   Silence() : terminal_(dup(STDERR_FILENO)), nowhere_(open("/dev/null", O_WRONLY)) { dup2(nowhere_, STDERR_FILENO); }
@@ -297,7 +297,7 @@ class Reader {
     return set;
   }
 
-  /// Sides join the elements after all of these, so that numbers of elements stay places in the lists.
+  /// Sides are appended after all elements, so that an element's number remains its place in the lists.
   void read_side_sets() {
     const std::size_t n_body = result_.n_elements();
     for (const std::int64_t id : ids(EX_SIDE_SET, sizes_.num_side_sets, "numbers of the side sets")) {

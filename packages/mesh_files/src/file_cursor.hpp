@@ -31,7 +31,8 @@ class FileCursor {
   /// The rest of the current line as it is, for columns of fixed width.
   std::string raw_line();
 
-  /// Skips white space and these very words.
+  /// Skips white space and exactly these words.
+  /// @throws base::UserError if others follow
   void expect(const std::string& words);
 
   /// Moves to the start of the next line that begins with these words.
@@ -42,7 +43,7 @@ class FileCursor {
   std::int64_t next_long() { return binary_ ? raw<std::int64_t>() : ascii_long(); }
   double next_real();
 
-  /// Numbers that are text in binary files, too.
+  /// Numbers that are text even in binary files.
   int ascii_int();
   std::int64_t ascii_long();
 
@@ -54,6 +55,7 @@ class FileCursor {
   /// @param bytes   at least so many bytes per item in binary data
   std::size_t checked(std::int64_t count, std::size_t numbers, std::size_t bytes) const;
 
+  /// @throws base::UserError with the file and the place
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void fail_truncated() const;
 

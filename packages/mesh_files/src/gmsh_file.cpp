@@ -133,8 +133,7 @@ class Reader {
     }
   }
 
-  // ---- 4.1: entities (points, curves, surfaces, volumes) have groups; nodes and elements come in blocks by entity
-  // ----
+  // ---- 4.1: points, curves, surfaces and volumes (entities) have groups; nodes and elements come by entity ----
 
   void read_entities() {
     std::array<std::size_t, 4> counts;

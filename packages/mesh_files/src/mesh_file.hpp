@@ -11,15 +11,15 @@
 
 namespace perimorph::mesh_files {
 
-/// What a mesh file may consist of: points and linear elements. The first ones serve as members of groups only,
-/// the others are in the order of mesh::ElementType.
+/// What a mesh file may consist of: points and linear elements. Points and lines only serve as members of groups; the
+/// others are in the order of mesh::ElementType.
 enum class Shape : std::uint8_t { point, line, triangle, quadrangle, tetrahedron, pyramid, wedge, hexahedron };
 
 int dimension(Shape shape);
 int n_nodes(Shape shape);
-mesh::ElementType element_type(Shape shape);  ///< of a triangle or what comes after it
+mesh::ElementType element_type(Shape shape);  ///< of a shape of dimension 2 or 3
 
-/// A group of elements of one dimension: that dimension, and a number.
+/// A group of elements of one dimension: that dimension, and the group's number.
 using GroupKey = std::pair<int, int>;
 
 /// What to do about a mistake in the mesh, in the terms of the program that wrote it.
@@ -47,12 +47,12 @@ struct MeshFile {
   /// Numbers of groups (of the element's dimension) that elements may be in together; the first is empty.
   std::vector<std::vector<int>> group_lists = {{}};
 
-  /// Formats without side sets: the sides of the body's boundary with all their nodes in a node set make one.
+  /// For formats without side sets: sides of the boundary with all their nodes in one node set make a side set.
   bool sides_follow_from_node_sets = false;
 
   std::size_t n_elements() const { return element_tags.size(); }
 
-  /// Adds an element of which the nodes still have to follow in element_nodes; then end_element().
+  /// Adds an element; its nodes are then to be added to element_nodes, and end_element() called.
   void begin_element(std::int64_t tag, Shape shape, int group_list);
   void end_element() { first_node.push_back(element_nodes.size()); }
   void add_element(std::int64_t tag, Shape shape, int group_list, const std::vector<std::int64_t>& nodes);
