@@ -1,5 +1,7 @@
 #include "perimorph/fracture/adaptive_loop.hpp"
 
+#include <cmath>
+
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::fracture {
@@ -17,6 +19,12 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
 template <int dim>
 LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& limits, LoopObserver<dim>& observer,
                       LoopPosition& position) {
+  PERIMORPH_ASSERT(std::isfinite(load_factor), "load factor {}", load_factor);
+  PERIMORPH_ASSERT(limits.max_damage_iterations > 0 && limits.max_zone_growths > 0, "at most {} solves and {} growths",
+                   limits.max_damage_iterations, limits.max_zone_growths);
+  PERIMORPH_ASSERT(position.increment >= 0 && position.growths >= 0 && position.damage_iterations >= 0,
+                   "after increment {}, {} growths, {} solves", position.increment, position.growths,
+                   position.damage_iterations);
   const int increment = position.increment + 1;
   if (position.damage_iterations == 0) body.apply_load(load_factor);
   do {

@@ -62,6 +62,8 @@ bool comes_before(const StretchedPlace<dim>& a, const StretchedPlace<dim>& b) {
 template <int dim>
 std::vector<StretchedPlace<dim>> most_stretched(const base::Comm& comm, const Body<dim>& body,
                                                 const Problem<dim>& problem, const model::AutomaticSeed& seed) {
+  PERIMORPH_ASSERT(seed.share > 0. && seed.share <= 1. && seed.inner_radius > 0., "share {}, inner radius {}",
+                   seed.share, seed.inner_radius);
   using Place = StretchedPlace<dim>;
   auto own = own_free_elements(body, problem);
   double largest = 0.;

@@ -44,10 +44,14 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       topology_(comm, mesh, topology_options(problem, options)),
       dirichlet_(*comm, mesh, problem.displacements),
       system_(*comm, topology_, dirichlet_, problem.loads, problem.e0, system_options(options), profile),
-      equilibrium_(options.solver, profile) {}
+      equilibrium_(options.solver, profile) {
+  PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
+                   options.tolerance, options.damage_tolerance);
+}
 
 template <int dim>
 void Body<dim>::apply_load(double load_factor) {
+  PERIMORPH_ASSERT(std::isfinite(load_factor), "load factor {}", load_factor);
   state_.counts.linear_solves = state_.counts.cg_iterations = 0;
   work_.load_changes();
   // Everything is linear while no bond breaks: under proportional load the displacement scales.
@@ -106,6 +110,7 @@ void Body<dim>::assemble() {
 
 template <int dim>
 void Body<dim>::solve(Accuracy accuracy) {
+  PERIMORPH_ASSERT(topology_.is_built(), "there is no topology to solve on");
   const auto u = base::field(state_.displacement);
   if (!system_.has_forces()) {
     system_.apply_load(state_.load_factor);
@@ -124,6 +129,7 @@ template <int dim>
 GlobalId Body<dim>::break_bonds() {
   const auto timer = profile_.measure(Phase::bonds);
   if (std::isinf(problem_.critical_stretch)) return 0;
+  PERIMORPH_ASSERT(system_.has_forces(), "nothing has been solved for load factor {}", state_.load_factor);
   const auto change = bonds_that_break(*comm_, model(), system_.displacement_at_points(), topology_.classes(),
                                        {problem_.critical_stretch, options_.breaking_fraction});
   publish(change);
@@ -193,6 +199,8 @@ operators::Overlap<dim> Body<dim>::overlap() const {
 
 template <int dim>
 base::Point<dim> Body<dim>::reaction(int node) const {
+  PERIMORPH_ASSERT(node >= 0 && node < topology_.dofs().n_owned_nodes(), "node {} of {} owned ones", node,
+                   topology_.dofs().n_owned_nodes());
   base::Point<dim> force;
   for (int c = 0; c < dim; ++c) {
     force[c] = system_.internal_force()[node * dim + c] - system_.loads()[node * dim + c];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/operators/broken_bonds.hpp"
 
 namespace perimorph::fracture {
@@ -31,6 +32,12 @@ template <int dim>
 bonds::BondChange bonds_that_break(const base::Comm& comm, const operators::CoupledModel<dim>& model,
                                    const std::vector<base::Point<dim>>& displacement_at_points,
                                    const std::vector<morphing::ElementClass>& classes, const BreakingRule& rule) {
+  PERIMORPH_ASSERT(rule.critical_stretch > 0. && rule.fraction > 0. && rule.fraction <= 1.,
+                   "critical stretch {}, share {}", rule.critical_stretch, rule.fraction);
+  PERIMORPH_ASSERT(static_cast<int>(displacement_at_points.size()) == model.points.size() &&
+                       static_cast<int>(classes.size()) == model.mesh.n_elements(),
+                   "displacements at {} of {} points, {} classes", displacement_at_points.size(), model.points.size(),
+                   classes.size());
   const auto& bonds = model.bonds;
   const double stretch = breaking_stretch(comm, bonds, displacement_at_points, classes, rule);
   bonds::BondChange change;

@@ -47,6 +47,12 @@ std::vector<double> in_space(const std::vector<base::Point<dim>>& points) {
 
 template <int dim>
 void write_bonds(const std::string& file, const BondModel<dim>& model) {
+  PERIMORPH_ASSERT(
+      model.point_ids.size() == model.positions.size() && model.displacements.size() == model.positions.size(),
+      "{} ids, {} positions, {} displacements", model.point_ids.size(), model.positions.size(),
+      model.displacements.size());
+  PERIMORPH_ASSERT(model.ends.size() == 2 * model.stretch.size() && model.broken.size() == model.stretch.size(),
+                   "{} ends, {} stretches, {} states", model.ends.size(), model.stretch.size(), model.broken.size());
   std::vector<long long> line_ends;  // of each line, in the list of ends
   for (std::size_t b = 0; b < model.stretch.size(); ++b) line_ends.push_back(2 * (static_cast<long long>(b) + 1));
   Appended data;

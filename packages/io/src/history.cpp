@@ -40,6 +40,7 @@ std::string line(const std::vector<std::string>& values) {
 
 History::History(const std::string& file, const std::vector<std::string>& columns)
     : file_(file), n_columns_(columns.size()) {
+  PERIMORPH_ASSERT(n_columns_ > 0, "{}: a table without columns", file_);
   errno = 0;
   stream_.open(file_);
   stream_ << line(columns) << std::flush;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::model {
 
 using discretization::DiscontinuousElements;
@@ -30,6 +32,7 @@ const Resistances& resistances_of(DiscontinuousElements discontinuous, Peridynam
 
 double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
                           double characteristic_length) {
+  PERIMORPH_ASSERT(characteristic_length > 0., "a characteristic length of {} elements", characteristic_length);
   const Resistances& measured = resistances_of(discontinuous, stiffness);
   std::size_t i = 0;
   while (i + 2 < lengths.size() && characteristic_length > lengths[i + 1]) ++i;
@@ -72,6 +75,7 @@ bool is_calibrated_to_mesh(Calibration calibration, int dimension, int points_pe
 
 template <int dim>
 bool calibrate_to_mesh(Problem<dim>& problem, const NumericalOptions& options, double element_size) {
+  PERIMORPH_ASSERT(element_size > 0., "elements of size {}", element_size);
   const bool is_calibrated = is_calibrated_to_mesh(problem.calibration, dim, options.points_per_direction);
   if (!is_calibrated || std::isinf(problem.critical_stretch)) return false;
   const double resistance = lattice_resistance(options.discontinuous, options.peridynamic_stiffness,

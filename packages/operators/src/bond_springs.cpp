@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "perimorph/base/errors.hpp"
 #include "perimorph/operators/bond_forces.hpp"
 #include "perimorph/operators/stiffness_matrix.hpp"
 
@@ -72,7 +71,6 @@ void BondForces<dim>::take(const bonds::BondChange& change, StiffnessMatrix<dim>
                            std::vector<int>& changed) const {
   const auto& bonds = model_.bonds;
   const auto& broken = change.broken;
-  PERIMORPH_ASSERT(std::is_sorted(broken.begin(), broken.end()), "{} bonds are not in ascending order", broken.size());
   std::array<Block<dim>, elements::max_points> at_first, at_second;
   std::vector<Block<dim>> between;
   for (std::size_t next = 0; next < broken.size();) {

@@ -26,7 +26,10 @@ CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::
       load_data_(loads),
       options_(options),
       profile_(profile),
-      elasticity_(e0, options.peridynamic_stiffness) {}
+      elasticity_(e0, options.peridynamic_stiffness) {
+  PERIMORPH_ASSERT(options.preconditioner_matrix == PreconditionerMatrix::coupled || options.short_range_cut_off > 0.,
+                   "short-range bonds up to {}", options.short_range_cut_off);
+}
 
 template <int dim>
 CoupledModel<dim> CoupledSystem<dim>::model() const {
@@ -152,6 +155,8 @@ void CoupledSystem<dim>::correct(base::Field u, const Vector& correction) {
 
 template <int dim>
 void CoupledSystem<dim>::prepare_tangent(base::ConstField u) {
+  PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) == space_->n_local(),
+                   "{} displacements for {} degrees of freedom", u.size(), space_->n_local());
   for (const auto& term : terms_) term->prepare_tangent(u);
 }
 
@@ -163,6 +168,8 @@ Teuchos::RCP<NonlinearSystem::Operator> CoupledSystem<dim>::tangent() const {
 
 template <int dim>
 void CoupledSystem<dim>::load_derivative(Vector& derivative) const {
+  PERIMORPH_ASSERT(derivative.getLocalLength() == space_->n_owned(), "derivative of {} for {} degrees of freedom",
+                   derivative.getLocalLength(), space_->n_owned());
   std::vector<double> forces(space_->n_local(), 0.);
   const auto rates = space_->prescribed_rates();
   for (const auto& term : terms_) term->add_tangent_product(base::field(rates), base::field(forces));

@@ -111,6 +111,8 @@ std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, i
                                                const std::vector<Point<dim>>& at_points) {
   PERIMORPH_ASSERT(element >= 0 && element < model.mesh.n_owned_elements, "element {} of {} owned ones", element,
                    model.mesh.n_owned_elements);
+  PERIMORPH_ASSERT(static_cast<int>(at_points.size()) == model.points.size(), "displacements at {} of {} points",
+                   at_points.size(), model.points.size());
   const int first = model.points.first(element), end = model.points.first(element + 1);
   std::vector<base::Voigt<dim>> stress(end - first, base::Voigt<dim>::Zero());
   for (const int p : model.bonds.pairs_of(element)) {
@@ -127,6 +129,8 @@ std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, i
 
 template <int dim>
 double largest_principal_strain(const CoupledModel<dim>& model, int element, base::ConstField u) {
+  PERIMORPH_ASSERT(element >= 0 && element < model.mesh.n_elements(), "element {} of {}", element,
+                   model.mesh.n_elements());
   double largest = -std::numeric_limits<double>::infinity();
   visit_local_part(model, element, u, [&](int, const base::Voigt<dim>& strain, const base::Voigt<dim>&, double) {
     Eigen::Matrix<double, dim, dim> tensor = strain.template head<dim>().asDiagonal();

@@ -20,6 +20,8 @@ void MatrixFreeTangent<dim>::apply(const MultiVector& x, MultiVector& y, Teuchos
                                    double beta) const {
   PERIMORPH_ASSERT(x.getNumVectors() == y.getNumVectors(), "{} vectors in, {} out", x.getNumVectors(),
                    y.getNumVectors());
+  PERIMORPH_DEBUG_ASSERT(x.getMap()->isSameAs(*getDomainMap()) && y.getMap()->isSameAs(*getRangeMap()),
+                         "other unknowns than the space's");
   PERIMORPH_ASSERT(&x != &y, "the result would replace the argument while it is read");
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto one = x.getVector(column);

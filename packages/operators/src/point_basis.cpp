@@ -98,6 +98,7 @@ base::NodeWeights weights_of_old_unknowns(const CoupledModel<dim>& model, const 
                                           const discretization::DofMap<dim>& old_dofs,
                                           const PointBasis<dim>* old_basis) {
   const auto is_by_points = [](const PointBasis<dim>* one, int e) { return one != nullptr && one->holds(e); };
+  PERIMORPH_ASSERT(basis != nullptr || old_basis == nullptr, "points that were unknowns have become nodes again");
   base::NodeWeights weights(model.dofs.n_owned_nodes());
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     const int* nodes = model.dofs.nodes_of(e);

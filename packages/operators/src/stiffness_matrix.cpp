@@ -22,6 +22,9 @@ int lower_bound(const int* begin, const int* end, int value) {
 
 template <int dim>
 void Couplings<dim>::add_elements(int first, int second) {
+  const auto n = static_cast<int>(elements.size());
+  PERIMORPH_DEBUG_ASSERT(first >= 0 && first < n && second >= 0 && second < n, "elements {} and {} of {}", first,
+                         second, n);
   elements[first].push_back(second);
   elements[second].push_back(first);
 }
@@ -76,6 +79,7 @@ std::size_t StiffnessMatrix<dim>::bytes() const {
 
 template <int dim>
 typename Couplings<dim>::Nodes StiffnessMatrix<dim>::nodes_at(int element, int q) const {
+  PERIMORPH_DEBUG_ASSERT(q >= 0 && q < model_.points.count(element), "point {} of {}", q, model_.points.count(element));
   const int* nodes = model_.dofs.nodes_of(element);
   return is_by_points(element) ? std::pair{nodes + q, nodes + q + 1}
                                : std::pair{nodes, nodes + model_.mesh.n_corners(element)};
@@ -217,6 +221,8 @@ void StiffnessMatrix<dim>::add_between(const bonds::ElementPair& pair, const std
 
 template <int dim>
 std::vector<int> StiffnessMatrix<dim>::take(const bonds::BondChange& change) {
+  PERIMORPH_ASSERT(std::is_sorted(change.broken.begin(), change.broken.end()), "{} bonds are not in ascending order",
+                   change.broken.size());
   std::vector<int> changed;
   for (const auto& term : terms_) term->take(change, *this, changed);
   return changed;

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <numeric>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::solvers {
 
 template <int rows, int cols>
 BlockMatrix<rows, cols>::BlockMatrix(const Matrix& matrix) : ghosts_(matrix.getDomainMap(), *matrix.getColMap()) {
   const auto local = matrix.getLocalMatrixHost();
   const int n_rows = static_cast<int>(local.numRows()) / rows;
+  PERIMORPH_ASSERT(n_rows * rows == local.numRows(), "{} rows are no blocks of {}", local.numRows(), rows);
   place_.resize(matrix.getColMap()->getNodeNumElements());
   for (std::size_t i = 0; i < place_.size(); ++i) {
     const base::GlobalId number = matrix.getColMap()->getGlobalElement(static_cast<int>(i));
@@ -38,7 +41,10 @@ BlockMatrix<rows, cols>::BlockMatrix(const Matrix& matrix) : ghosts_(matrix.getD
 template <int rows, int cols>
 void BlockMatrix<rows, cols>::read_values(const Matrix& matrix, const std::vector<int>& block_rows) {
   const auto local = matrix.getLocalMatrixHost();
+  PERIMORPH_ASSERT(matrix.getNodeNumRows() == static_cast<std::size_t>(n_rows()) * rows, "{} rows in place of {}",
+                   matrix.getNodeNumRows(), n_rows() * rows);
   for (const int row : block_rows) {
+    PERIMORPH_DEBUG_ASSERT(row >= 0 && row < n_rows(), "row {} of {}", row, n_rows());
     for (std::size_t b = first_[row]; b < first_[row + 1]; ++b) block_at_[columns_[b]] = b;
     for (int r = 0; r < rows; ++r) {
       for (auto k = local.graph.row_map(row * rows + r); k < local.graph.row_map(row * rows + r + 1); ++k) {
@@ -51,6 +57,7 @@ void BlockMatrix<rows, cols>::read_values(const Matrix& matrix, const std::vecto
 
 template <int rows, int cols>
 Eigen::Matrix<float, rows, cols> BlockMatrix<rows, cols>::block(std::size_t block) const {
+  PERIMORPH_DEBUG_ASSERT(block < columns_.size(), "block {} of {}", block, columns_.size());
   Eigen::Matrix<float, rows, cols> result;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) result(r, c) = values_[entry(block, r, c)];

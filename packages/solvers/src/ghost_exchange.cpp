@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::solvers {
 
 using base::GlobalId;
@@ -14,6 +16,8 @@ GhostExchange<size>::GhostExchange(const Teuchos::RCP<const Map>& owned, const M
       base_(owned->getIndexBase()),
       n_owned_(static_cast<int>(owned->getNodeNumElements()) / size),
       comm_(base::mpi_communicator(*owned->getComm())) {
+  PERIMORPH_ASSERT(owned->getNodeNumElements() % size == 0, "{} numbers are no blocks of {}",
+                   owned->getNodeNumElements(), size);
   const base::Comm& comm = *owned->getComm();
   for (std::size_t i = 0; i < columns.getNodeNumElements(); ++i) {
     const GlobalId number = columns.getGlobalElement(static_cast<int>(i));
@@ -50,11 +54,15 @@ int GhostExchange<size>::local_block(GlobalId number) const {
   const int local = owned_->getLocalElement(number);
   if (local >= 0) return local / size;
   const auto place = std::lower_bound(ghosts_.begin(), ghosts_.end(), (number - base_) / size);
+  PERIMORPH_DEBUG_ASSERT(place != ghosts_.end() && *place == (number - base_) / size, "number {} is not held here",
+                         number);
   return n_owned_ + static_cast<int>(place - ghosts_.begin());
 }
 
 template <int size>
 void GhostExchange<size>::update(std::vector<float>& x) const {
+  PERIMORPH_DEBUG_ASSERT(x.size() >= static_cast<std::size_t>(n_owned_ + ghosts_.size()) * size,
+                         "{} numbers for {} blocks", x.size(), n_owned_ + ghosts_.size());
   constexpr int tag = 4711;
   float* out = outgoing_.data();
   MPI_Request* request = requests_.data();

@@ -154,6 +154,8 @@ Multigrid::Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& ne
     : hierarchy_(std::make_unique<Hierarchy>()),
       dim_(static_cast<int>(near_null_space.coordinates->getNumVectors())),
       has_own_cycle_(cycle == Cycle::fast) {
+  PERIMORPH_ASSERT(!matrix.is_null() && near_null_space.modes->getLocalLength() == matrix->getNodeNumRows(),
+                   "modes of {} rows", near_null_space.modes->getLocalLength());
   Teuchos::ParameterList list = default_parameters(cycle);
   list.setParameters(overrides);
   list.set("number of equations", dim_);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "perimorph/base/algebra.hpp"
+#include "perimorph/base/errors.hpp"
 
 namespace perimorph::base {
 
@@ -17,6 +18,7 @@ inline ConstField field(const std::vector<double>& values) { return {values.data
 /// The vector that a field on nodes, (n_nodes, dim), has at one of them.
 template <int dim>
 Eigen::Map<const Point<dim>> at_node(const ConstField& values, int node) {
+  PERIMORPH_DEBUG_ASSERT(node >= 0 && (node + 1) * dim <= values.size(), "node {} of {} values", node, values.size());
   return Eigen::Map<const Point<dim>>(values.getRawPtr() + static_cast<std::ptrdiff_t>(node) * dim);
 }
 

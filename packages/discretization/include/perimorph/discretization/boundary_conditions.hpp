@@ -49,7 +49,10 @@ class Dirichlet {
   /// @throws UserError if two conditions contradict each other on a node. Collective.
   Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions);
 
-  bool prescribes(int reference_node, int component) const { return fixed_[reference_node * dim + component]; }
+  bool prescribes(int reference_node, int component) const {
+    PERIMORPH_DEBUG_ASSERT(component >= 0 && component < dim, "component {}", component);
+    return fixed_[reference_node * dim + component];
+  }
   /// The displacement over the load factor, [length]; zero where none is prescribed.
   const Ramp<double>& ramp(int reference_node, int component) const {
     return values_[reference_node * dim + component];

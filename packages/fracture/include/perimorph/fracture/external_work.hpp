@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/base/field.hpp"
 
 namespace perimorph::fracture {
@@ -15,12 +16,16 @@ class ExternalWork {
 
   /// Goes on from a solution whose forces are known, or with another numbering, whose forces are not.
   void go_on_from(base::ConstField u, std::vector<double> force) {
+    PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) >= force.size(), "{} displacements, {} forces", u.size(),
+                     force.size());
     last_u_.assign(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(force.size()));
     last_force_ = std::move(force);
   }
 
   /// This rank's share up to a new solution, [energy].
   double up_to(base::ConstField u, const std::vector<double>& force, const std::vector<double>& loads) {
+    PERIMORPH_ASSERT(force.size() == last_force_.size() && loads.size() == force.size(),
+                     "{} forces, {} before, {} loads", force.size(), last_force_.size(), loads.size());
     double work = 0.;
     for (std::size_t i = 0; i < force.size(); ++i) {
       work += (u[i] - last_u_[i]) * (load_is_new_ ? 0.5 * (last_force_[i] + force[i]) : loads[i]);

@@ -20,8 +20,7 @@ struct SolverParameters {
 /// preconditioner is kept as long as it serves, but for its finest level: then refreshed, then rebuilt.
 class LinearSolver {
  public:
-  LinearSolver(SolverParameters parameters, base::Profile& profile)
-      : parameters_(std::move(parameters)), profile_(profile) {}
+  LinearSolver(SolverParameters parameters, base::Profile& profile);
 
   /// A new operator, and the matrix that its preconditioner is made from, which is near to it or the same. Local.
   /// @param basis T, if the preconditioner's matrix is near to T^T A T instead
