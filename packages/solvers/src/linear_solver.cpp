@@ -38,6 +38,12 @@ class InBasis : public Operator {
 
 }  // namespace
 
+LinearSolver::LinearSolver(SolverParameters parameters, base::Profile& profile)
+    : parameters_(std::move(parameters)), profile_(profile) {
+  PERIMORPH_ASSERT(parameters_.max_iterations > 0 && parameters_.renewal_cost >= 0., "{} iterations, renewal cost {}",
+                   parameters_.max_iterations, parameters_.renewal_cost);
+}
+
 void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
                                 const Teuchos::RCP<Matrix>& preconditioner_matrix, const NearNullSpace& near_null_space,
                                 const Teuchos::RCP<const Operator>& basis, std::optional<base::NodeWeights> from_old) {
