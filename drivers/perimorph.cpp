@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "perimorph/application/run.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/cases/case.hpp"
 #include "perimorph/cases/reference.hpp"
-#include "perimorph/fracture/run.hpp"
 
 namespace {
 
@@ -22,12 +22,12 @@ struct Arguments {
   std::vector<std::string> overrides;
   bool quiet = false, no_progress = false, restart = false;
 
-  fracture::Talk talk() const {
-    if (quiet) return fracture::Talk::quiet;
-    return no_progress || isatty(STDOUT_FILENO) == 0 ? fracture::Talk::lines : fracture::Talk::progress;
+  application::Verbosity verbosity() const {
+    if (quiet) return application::Verbosity::quiet;
+    return no_progress || isatty(STDOUT_FILENO) == 0 ? application::Verbosity::lines : application::Verbosity::progress;
   }
-  fracture::Start start() const {
-    return restart ? fracture::Start::from_checkpoint : fracture::Start::at_the_first_increment;
+  application::Start start() const {
+    return restart ? application::Start::from_checkpoint : application::Start::at_the_first_increment;
   }
 };
 
@@ -89,10 +89,10 @@ int main(int argc, char** argv) {
     }
     const cases::Case input = read_case(*comm, arguments);
     if (app.got_subcommand(check)) {
-      fracture::check(comm, input, arguments.talk());
+      application::check(comm, input, arguments.verbosity());
     } else {
-      fracture::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output,
-                    arguments.talk(), arguments.start());
+      application::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output,
+                       arguments.verbosity(), arguments.start());
     }
     return 0;
   } catch (const base::UserError& error) {

@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "perimorph/cases/problem.hpp"
-#include "perimorph/fracture/run_observer.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
+#include "perimorph/output/run_observer.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -86,28 +86,34 @@ double heap_in_use() {
   return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 
-/// All parts of a run, as fracture::run makes them.
+/// All parts of a run, as application::run makes them.
 struct WholeRun {
   Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
   base::Profile profile;
   model::Problem<2> problem;
-  fracture::Checkpoints<2> checkpoints;
+  output::Checkpoints<2> checkpoints;
+  output::StopRequests requests;
+  std::optional<io::Checkpoint> start;
   mesh::Mesh<2> mesh;
+  output::Rebalancing<2> rebalancing;
   fracture::Body<2> body;
-  fracture::Results<2> results;
+  output::Results<2> results;
 
   WholeRun(const cases::Case& input, const std::string& folder)
       : problem(cases::make_problem<2>(input)),
         checkpoints(comm, input, folder, base::silent_log()),
+        start(checkpoints.load()),
         mesh(read()),
+        rebalancing(comm, input.solver.largest_imbalance, std::vector<double>(mesh.n_global_elements, 1.),
+                    base::silent_log()),
         body(comm, mesh, problem, input.numerical, profile),
         results(comm, input, folder, {base::silent_log(), false}, profile, checkpoints.increment(),
                 checkpoints.results()) {
-    checkpoints.restore(body);
+    if (start) body.restore(output::share_state(*comm, *start, mesh));
   }
 
   void advance_to(const cases::Case& input, int increment) {
-    fracture::RunObserver<2> observer(results, checkpoints);
+    output::RunObserver<2> observer(comm, results, checkpoints, rebalancing, requests);
     fracture::LoopPosition position{checkpoints.increment()};
     fracture::run_adaptive_loop(body, {increment, input.loading.max_damage_iterations, input.loading.max_zone_growths},
                                 observer, position);
@@ -116,12 +122,10 @@ struct WholeRun {
 
  private:
   mesh::Mesh<2> read() {
-    checkpoints.load();
     mesh::Mesh<2> whole = arms();
     mesh::open_along<2>(whole, problem.pre_cracks);
     checkpoints.identify(whole);
-    checkpoints.expect_costs(std::vector<double>(whole.n_elements(), 1.));
-    return model::distribute_mesh(*comm, whole, problem, checkpoints.costs());
+    return model::distribute_mesh(*comm, whole, problem, std::vector<double>(whole.n_elements(), 1.));
   }
 };
 

@@ -1,6 +1,6 @@
 // Probes measure a field that is known: uniform strain, in a classical body and across a morphing zone.
 
-#include "perimorph/fracture/probes.hpp"
+#include "perimorph/output/probes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ Errors errors_at(const std::vector<cases::Probe>& probes, std::vector<Zone<2>> s
   test.body.update_topology();
   test.body.solve(fracture::Accuracy::accepted);
   const auto comm = Tpetra::getDefaultComm();
-  const fracture::Probes<2> all(*comm, test.mesh, probes);
+  const output::Probes<2> all(*comm, test.mesh, probes);
 
   const auto samples = all.measure(*comm, test.body);
 

@@ -21,7 +21,7 @@ class CheckpointFolder {
  public:
   explicit CheckpointFolder(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Increments of which there is a file, sound or not, ascending.
+  /// Increments of which there is a file, intact or not, ascending.
   std::vector<int> increments() const;
 
   /// The name of an increment's file.

@@ -1,9 +1,11 @@
-#include "balance.hpp"
+#include "perimorph/output/partition_costs.hpp"
 
 #include <cmath>
 #include <numeric>
 
-namespace perimorph::fracture {
+namespace perimorph::output {
+
+using fracture::Body;
 
 namespace {
 
@@ -31,7 +33,7 @@ std::vector<double> own_costs(const Body<dim>& body) {
 }  // namespace
 
 template <int dim>
-std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const model::Problem<dim>& problem,
                                    discretization::DiscontinuousElements discontinuous) {
   std::vector<double> costs(whole.n_elements(), 1.);
   for (int e = 0; e < whole.n_elements(); ++e) {
@@ -54,7 +56,7 @@ std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const Problem<d
 }
 
 template <int dim>
-std::vector<double> element_costs(const base::Comm& comm, const Body<dim>& body) {
+std::vector<double> partition_costs(const base::Comm& comm, const Body<dim>& body) {
   const auto first = body.mesh().element_ids.begin();
   const auto ids = base::gather_on_root(comm, std::vector<base::GlobalId>(first, first + body.mesh().n_owned_elements));
   const auto costs = base::gather_on_root(comm, own_costs(body));
@@ -64,21 +66,20 @@ std::vector<double> element_costs(const base::Comm& comm, const Body<dim>& body)
 }
 
 template <int dim>
-Load measure_load(const base::Comm& comm, const Body<dim>& body) {
+WorkShare measure_work(const base::Comm& comm, const Body<dim>& body) {
   const auto costs = own_costs(body);
   const double own = std::accumulate(costs.begin(), costs.end(), 0.);
   const double total = base::sum(comm, own);
   return {total, base::max(comm, own) * comm.getSize() / total};
 }
 
-template std::vector<double> expected_costs<2>(const mesh::Mesh<2>&, const Problem<2>&,
-                                               discretization::DiscontinuousElements);
-template std::vector<double> element_costs<2>(const base::Comm&, const Body<2>&);
-template Load measure_load<2>(const base::Comm&, const Body<2>&);
+#define PERIMORPH_INSTANTIATE(dim)                                                                \
+  template std::vector<double> expected_costs(const mesh::Mesh<dim>&, const model::Problem<dim>&, \
+                                              discretization::DiscontinuousElements);             \
+  template std::vector<double> partition_costs(const base::Comm&, const Body<dim>&);              \
+  template WorkShare measure_work(const base::Comm&, const Body<dim>&);
 
-template std::vector<double> expected_costs<3>(const mesh::Mesh<3>&, const Problem<3>&,
-                                               discretization::DiscontinuousElements);
-template std::vector<double> element_costs<3>(const base::Comm&, const Body<3>&);
-template Load measure_load<3>(const base::Comm&, const Body<3>&);
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::output

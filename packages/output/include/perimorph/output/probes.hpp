@@ -8,7 +8,7 @@
 #include "perimorph/elements/locator.hpp"
 #include "perimorph/fracture/body.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::output {
 
 /// All probes of a case in one mesh. A place is in the element of the lowest global id that holds it, whatever the
 /// ranks: where elements have parted, on one side of the crack.
@@ -35,7 +35,7 @@ class Probes {
   const std::vector<Place>& places() const { return places_; }
 
   /// One sample for each place, in their order, on rank 0. Collective.
-  std::vector<Sample> measure(const base::Comm& comm, const Body<dim>& body) const;
+  std::vector<Sample> measure(const base::Comm& comm, const fracture::Body<dim>& body) const;
 
  private:
   std::vector<Place> places_;
@@ -46,4 +46,4 @@ class Probes {
   std::vector<Located> own_;
 };
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::output

@@ -7,7 +7,7 @@
 
 #include "perimorph/base/algebra.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::output {
 
 inline constexpr const char* axis_names[] = {"x", "y", "z"};
 
@@ -19,4 +19,4 @@ const std::vector<std::string>& stress_names() {
   return names;
 }
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::output

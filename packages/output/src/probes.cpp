@@ -1,4 +1,4 @@
-#include "perimorph/fracture/probes.hpp"
+#include "perimorph/output/probes.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -6,10 +6,11 @@
 #include "perimorph/cases/geometry.hpp"
 #include "perimorph/operators/fields.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::output {
 
 using base::GlobalId;
 using base::Point;
+using fracture::Body;
 
 namespace {
 
@@ -84,4 +85,4 @@ std::vector<typename Probes<dim>::Sample> Probes<dim>::measure(const base::Comm&
 template class Probes<2>;
 template class Probes<3>;
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::output

@@ -1,18 +1,19 @@
-#include "perimorph/fracture/exports.hpp"
+#include "perimorph/output/exports.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
-#include "columns.hpp"
+#include "component_names.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/io/bond_file.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::output {
 
 using base::GlobalId;
 using base::Point;
+using fracture::Body;
 using Texts = std::vector<std::string>;
 
 namespace {
@@ -241,4 +242,4 @@ void Exports<dim>::write_bonds(int increment, const Body<dim>& body) const {
 template class Exports<2>;
 template class Exports<3>;
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::output

@@ -6,10 +6,10 @@
 
 #include "perimorph/bonds/crack.hpp"
 #include "perimorph/cases/case.hpp"
-#include "perimorph/fracture/probes.hpp"
 #include "perimorph/io/history.hpp"
+#include "perimorph/output/probes.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::output {
 
 /// What a run writes beside history.csv and the fields, if the case asks for it: probes.csv, crack.csv and
 /// crack_path.csv, bonds-\<increment>.vtp. Rank 0 writes; the order of rows and bonds does not depend on the ranks.
@@ -22,7 +22,7 @@ class Exports {
           const std::string& folder, int increment);
 
   /// Records an increment. Collective. @throws ComputationError if a file cannot be written.
-  void accept(int increment, const Body<dim>& body);
+  void accept(int increment, const fracture::Body<dim>& body);
 
  private:
   Teuchos::RCP<const base::Comm> comm_;
@@ -35,9 +35,9 @@ class Exports {
   std::set<std::pair<base::GlobalId, base::GlobalId>> known_sides_;  ///< in the path table, by elements; on rank 0
 
   void open_tables(int increment);
-  void record_probes(int increment, const Body<dim>& body);
-  void record_crack(int increment, const Body<dim>& body);
-  void write_bonds(int increment, const Body<dim>& body) const;
+  void record_probes(int increment, const fracture::Body<dim>& body);
+  void record_crack(int increment, const fracture::Body<dim>& body);
+  void write_bonds(int increment, const fracture::Body<dim>& body) const;
 };
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::output

@@ -1,0 +1,299 @@
+#include "perimorph/application/run.hpp"
+
+#include <Teuchos_XMLParameterListHelpers.hpp>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/base/sums.hpp"
+#include "perimorph/base/temporary_folder.hpp"
+#include "perimorph/cases/advice.hpp"
+#include "perimorph/cases/problem.hpp"
+#include "perimorph/fracture/automatic_seeds.hpp"
+#include "perimorph/input/resolved.hpp"
+#include "perimorph/mesh/mesh_report.hpp"
+#include "perimorph/model/calibration.hpp"
+#include "perimorph/output/partition_costs.hpp"
+#include "perimorph/output/run_observer.hpp"
+
+namespace perimorph::application {
+
+using base::GlobalId;
+using Comm = Teuchos::RCP<const base::Comm>;
+using model::Problem;
+
+namespace {
+
+/// The names that a run writes to are none of those that it reads.
+void check_not_overwritten(const cases::Case& input, const std::string& folder) {
+  const auto is_result = [&](const std::string& file) {
+    std::error_code ignored;
+    for (const std::string& name : {std::string("resolved.xml"), input.name + ".e"}) {
+      if (std::filesystem::equivalent(std::filesystem::path(folder) / name, file, ignored)) return true;
+    }
+    return false;
+  };
+  for (const auto& [file, what] : {std::pair{input.file, "case"}, {input.mesh.file, "mesh"}}) {
+    if (!is_result(file)) continue;
+    throw base::UserError(
+        fmt::format("{}: the results would replace the {}: name another folder with --output", file, what));
+  }
+}
+
+void make_folder(const base::Comm& comm, const cases::Case& input, const std::string& folder) {
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() != 0) return;
+    check_not_overwritten(input, folder);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw base::UserError(fmt::format("{}: the output folder cannot be made: {}", folder, error.message()));
+  });
+}
+
+void write_resolved(const base::Comm& comm, const cases::Case& input, const std::string& file) {
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() != 0) return;
+    std::ofstream stream(file);
+    Teuchos::writeParameterListToXmlOStream(input.resolved, stream);
+    stream.close();
+    if (!stream) throw base::UserError(fmt::format("{}: cannot be written", file));
+  });
+}
+
+template <int dim>
+void describe(const base::Comm& comm, const cases::Case& input, const Problem<dim>& problem,
+              const mesh::Mesh<dim>& mesh, const base::Log& log) {
+  log->info("{}", input.title.empty() ? input.name : input.title);
+  log->info("mesh             {}: {} elements, {} nodes on {} rank{}", input.mesh.file, mesh.n_global_elements,
+            mesh.n_global_nodes, comm.getSize(), comm.getSize() == 1 ? "" : "s");
+  log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
+            problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
+}
+
+/// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds,
+/// whose size is returned. Collective.
+template <int dim>
+double place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
+                           const cases::Case& input, Problem<dim>& problem, base::Profile& profile,
+                           const base::Log& log) {
+  fracture::place_automatic_seeds(comm, mesh, input.numerical, input.loading.increments, problem, profile, log);
+  const double size = model::element_size(*comm, mesh, problem);
+  const bool is_calibrated = model::calibrate_to_mesh(problem, input.numerical, size);
+  if (std::isinf(problem.critical_stretch)) {
+    log->info("fracture         none: neither critical stretch nor fracture energy is given");
+  } else {
+    log->info("fracture         critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}",
+              problem.critical_stretch, is_calibrated ? "calibrated to the mesh," : "by the integral,",
+              problem.fracture_energy);
+  }
+  return size;
+}
+
+/// One run of a case.
+template <int dim>
+class Run {
+ public:
+  /// Reads the checkpoint, if there is to be one. The arguments must outlive this. Collective.
+  Run(const Comm& comm, const cases::Case& input, const std::string& folder, output::ConsoleOptions console,
+      base::Profile& profile, Start start)
+      : comm_(comm),
+        input_(input),
+        folder_(folder),
+        console_(std::move(console)),
+        profile_(profile),
+        checkpoints_(comm, input, folder, console_.log),
+        problem_(cases::make_problem<dim>(input)) {
+    if (start == Start::from_checkpoint) start_ = checkpoints_.load();
+  }
+
+  /// To the last increment, with as many partitions of the mesh as it takes. Collective.
+  void to_the_end() {
+    const auto whole = read();
+    auto costs = checkpoints_.element_costs();
+    if (costs.empty()) costs = output::expected_costs(whole, problem_, input_.numerical.discontinuous);
+    output::Rebalancing<dim> rebalancing(comm_, input_.solver.largest_imbalance, std::move(costs), console_.log);
+    auto mesh = distribute(whole, rebalancing);
+    describe(*comm_, input_, problem_, mesh, console_.log);
+    place_and_calibrate(comm_, mesh, input_, problem_, profile_, console_.log);
+    try {
+      fracture::LoopPosition position{checkpoints_.increment()};
+      while (!is_done_on(mesh, rebalancing, position)) mesh = distribute(whole, rebalancing);
+    } catch (const base::ComputationError&) {
+      save_what_is_left();
+      throw;
+    }
+  }
+
+ private:
+  Comm comm_;
+  const cases::Case& input_;
+  std::string folder_;
+  output::ConsoleOptions console_;
+  base::Profile& profile_;
+  output::Checkpoints<dim> checkpoints_;
+  output::StopRequests requests_;
+  Problem<dim> problem_;
+  std::optional<io::Checkpoint> start_;  ///< state from which the next body goes on; none: from the beginning
+
+  mesh::Mesh<dim> read() {
+    const auto timer = profile_.measure(base::Phase::read);
+    auto whole = cases::read_whole_mesh<dim>(*comm_, input_, folder_);
+    checkpoints_.identify(whole);
+    return whole;
+  }
+
+  mesh::Mesh<dim> distribute(const mesh::Mesh<dim>& whole, const output::Rebalancing<dim>& rebalancing) {
+    const auto timer = profile_.measure(base::Phase::read);
+    return model::distribute_mesh(*comm_, whole, problem_, rebalancing.element_costs());
+  }
+
+  /// Goes on with one partition of the mesh, as far as it serves; returns whether the run is done.
+  /// @throws ComputationError if it was asked to stop, and as run_adaptive_loop does.
+  bool is_done_on(const mesh::Mesh<dim>& mesh, output::Rebalancing<dim>& rebalancing,
+                  fracture::LoopPosition& position) {
+    const int increment = checkpoints_.increment();
+    fracture::Body<dim> body(comm_, mesh, problem_, input_.numerical, profile_);
+    output::Results<dim> results(comm_, input_, folder_, console_, profile_, increment, checkpoints_.results());
+    results.add_exports(std::make_unique<output::Exports<dim>>(comm_, mesh, input_, folder_, increment));
+    checkpoints_.remove_later();
+    if (start_) body.restore(output::share_state(*comm_, *start_, mesh));
+    start_.reset();
+    output::RunObserver<dim> observer(comm_, results, checkpoints_, rebalancing, requests_);
+    const auto& loading = input_.loading;
+    const fracture::LoopLimits limits{loading.increments, loading.max_damage_iterations, loading.max_zone_growths};
+    switch (run_adaptive_loop(body, limits, observer, position)) {
+      case fracture::LoopEnd::stopped:
+        throw base::ComputationError(fmt::format("{} asked it to stop; --restart goes on after increment {}",
+                                                 requests_.signal(), checkpoints_.increment()));
+      case fracture::LoopEnd::rebalance:
+        start_ = output::gather_state(*comm_, body);
+        return false;
+      case fracture::LoopEnd::done:
+        results.summarize(body);
+    }
+    return true;
+  }
+
+  /// A computation that cannot go on can be continued by other means.
+  void save_what_is_left() {
+    try {
+      checkpoints_.write();
+    } catch (const base::ComputationError& error) {
+      console_.log->warn("warning: {}", error.what());
+    }
+  }
+};
+
+template <int dim>
+void run_in(const Comm& comm, const cases::Case& input, const std::string& folder, Verbosity verbosity, Start start) {
+  base::Profile profile;
+  make_folder(*comm, input, folder);
+  base::Log log;
+  base::on_all_ranks(*comm, [&] {
+    log = base::make_log(*comm, verbosity == Verbosity::quiet, folder + "/run.log", start == Start::from_checkpoint);
+  });
+  try {
+    const bool shows_progress = verbosity == Verbosity::progress && comm->getRank() == 0;
+    Run<dim> run(comm, input, folder, {log, shows_progress}, profile, start);
+    write_resolved(*comm, input, folder + "/resolved.xml");
+    run.to_the_end();
+  } catch (const std::exception& error) {
+    log->info("\n{}\n{}", error.what(), profile.table());
+    throw;
+  }
+}
+
+/// What a body holds before the first increment.
+struct InitialSizes {
+  std::array<double, 3> elements_of_class{};
+  GlobalId bonds = 0;  ///< each once
+  // Summed over the ranks as they are held: what several have counts several times.
+  double bonds_held = 0., bonded_points = 0., bytes = 0., bytes_of_bonds = 0., bytes_of_operator = 0.;
+};
+
+/// Collective.
+template <int dim>
+InitialSizes sizes_of(const base::Comm& comm, const fracture::Body<dim>& body) {
+  const auto& mesh = body.mesh();
+  const auto model = body.model();
+  InitialSizes sizes;
+  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
+    if (model.bonds.pair(p).first >= mesh.n_owned_elements) continue;
+    sizes.bonds += static_cast<GlobalId>(model.bonds.first_bond(p + 1) - model.bonds.first_bond(p));
+  }
+  for (int e = 0; e < mesh.n_owned_elements; ++e) {
+    sizes.elements_of_class[static_cast<int>(body.topology().classes()[e])] += 1.;
+  }
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    sizes.bonded_points += model.bonds.pairs_of(e).empty() ? 0 : model.points.count(e);
+  }
+  sizes.bonds_held = static_cast<double>(model.bonds.n_bonds());
+  sizes.bytes = base::peak_memory();
+  sizes.bytes_of_bonds = static_cast<double>(model.bonds.bytes());
+  sizes.bytes_of_operator = static_cast<double>(body.system().bytes_of_operator());
+  std::vector<double*> sums = {&sizes.bonds_held, &sizes.bonded_points, &sizes.bytes, &sizes.bytes_of_bonds,
+                               &sizes.bytes_of_operator};
+  for (double& count : sizes.elements_of_class) sums.push_back(&count);
+  base::sum(comm, sums);
+  sizes.bonds = base::sum(comm, sizes.bonds);
+  return sizes;
+}
+
+template <int dim>
+void describe_sizes(const base::Comm& comm, const fracture::Body<dim>& body, spdlog::logger& log) {
+  const auto sizes = sizes_of(comm, body);
+  const auto of = [&](morphing::ElementClass which) { return sizes.elements_of_class[static_cast<int>(which)]; };
+  using morphing::ElementClass;
+  log.info("models           {} FE, {} morphing, {} peridynamic ({} of them discontinuous)", of(ElementClass::fe),
+           of(ElementClass::morph), of(ElementClass::pd), body.counts().dgfe_elements);
+  log.info("at the start     {} unknowns, {} bonds, {:.2f} GB in all", body.counts().unknowns, sizes.bonds,
+           sizes.bytes / 1e9);
+  if (sizes.bonds_held > 0.) {
+    log.info("memory           {:.0f} MB for bonds ({:.1f} bytes each, {:.0f} a point), {:.0f} MB for the operator",
+             sizes.bytes_of_bonds / 1e6, sizes.bytes_of_bonds / sizes.bonds_held,
+             2. * sizes.bonds_held / sizes.bonded_points, sizes.bytes_of_operator / 1e6);
+  }
+  log.info("The zone grows with the cracks, and unknowns, bonds and memory with it.");
+}
+
+template <int dim>
+void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
+  base::Profile profile;
+  const base::TemporaryFolder folder;
+  const auto log = base::make_log(*comm, verbosity == Verbosity::quiet);
+  auto problem = cases::make_problem<dim>(input);
+  const auto whole = cases::read_whole_mesh<dim>(*comm, input, folder.path());
+  const auto costs = output::expected_costs(whole, problem, input.numerical.discontinuous);
+  const auto mesh = model::distribute_mesh(*comm, whole, problem, costs);
+  log->info("{}", input::listing(input.resolved));
+  describe(*comm, input, problem, mesh, log);
+  if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
+
+  const double size = place_and_calibrate(comm, mesh, input, problem, profile, log);
+  fracture::Body<dim> body(comm, mesh, problem, input.numerical, profile);
+  body.update_topology();
+  describe_sizes(*comm, body, *log);
+  for (const auto& line : cases::advice(input, size)) log->warn("advice: {}: {}", input.file, line);
+}
+
+/// Calls an action with the case's dimension as a constant: the one place where it is chosen.
+template <class Action>
+void with_dimension(const cases::Case& input, Action action) {
+  if (input.dimension == 2) action(std::integral_constant<int, 2>());
+  if (input.dimension == 3) action(std::integral_constant<int, 3>());
+}
+
+}  // namespace
+
+void check(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, Verbosity verbosity) {
+  with_dimension(input, [&](auto dim) { check_in<dim>(comm, input, verbosity); });
+}
+
+void run(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
+         Verbosity verbosity, Start start) {
+  with_dimension(input, [&](auto dim) { run_in<dim>(comm, input, folder, verbosity, start); });
+}
+
+}  // namespace perimorph::application

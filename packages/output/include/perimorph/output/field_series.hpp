@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "perimorph/fracture/body.hpp"
+#include "perimorph/io/exodus.hpp"
+
+namespace perimorph::output {
+
+/// What a series of Exodus files is called and says about itself.
+struct SeriesOptions {
+  std::string file;  ///< the first one, ".../case.e"
+  std::string title;
+  std::vector<std::string> globals;      ///< names of global variables
+  std::vector<std::string> information;  ///< lines for the info records
+  bool is_spread = false;                ///< each rank writes its part, or rank 0 all
+};
+
+/// The fields of a run: displacement, alpha, damage, class, energy and stress; a new file whenever the topology or the
+/// broken surface has changed.
+template <int dim>
+class FieldSeries {
+ public:
+  /// Goes on after an earlier series, if there is one. Collective. @throws UserError if it cannot be continued.
+  FieldSeries(const Teuchos::RCP<const base::Comm>& comm, SeriesOptions options,
+              const std::optional<io::SeriesExtent>& earlier);
+
+  /// How far it has come; on ranks that write. Local.
+  io::SeriesExtent extent() const { return series_ ? series_->extent() : io::SeriesExtent{}; }
+
+  /// Appends a step. Collective. @throws ComputationError if it cannot be written.
+  /// @param globals values of the global variables
+  void write(const fracture::Body<dim>& body, std::vector<double> globals);
+
+ private:
+  Teuchos::RCP<const base::Comm> comm_;
+  bool is_spread_, is_new_;                        ///< new: what an older series has left is still there
+  std::unique_ptr<io::ExodusSeries<dim>> series_;  ///< on ranks that write
+  base::GlobalId topology_written_ = 0, broken_sides_written_ = 0;  ///< 0: no file has been started
+  std::vector<int> nodes_, element_place_;                          ///< of the file's layout
+
+  void start_file(const fracture::Body<dim>& body, const std::vector<mesh::Side>& broken_surface);
+  std::vector<double> on_nodes(const fracture::Body<dim>& body, int component) const;
+  std::vector<double> on_elements(const std::vector<double>& own) const;
+};
+
+}  // namespace perimorph::output

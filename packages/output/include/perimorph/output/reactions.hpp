@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "perimorph/fracture/body.hpp"
+
+namespace perimorph::output {
+
+/// The force that supports exert on a group of nodes in one direction, over all ranks.
+struct Reaction {
+  std::string column;  ///< "<group>_<x|y|z>"
+  std::string group;   ///< a node set of the mesh
+  int component;
+  double force = 0.;         ///< in the last accepted increment, [force]
+  double displacement = 0.;  ///< mean over the group, in the last accepted increment, [length]
+  double peak = 0.;          ///< the largest force so far, with its sign, [force]
+  int peak_increment = 0;    ///< in which that was
+};
+
+/// Those of each group in each direction, not yet measured. Local.
+template <int dim>
+std::vector<Reaction> reactions_of(const std::vector<std::string>& groups);
+
+/// Measures all of them in an increment that has been accepted. Collective.
+template <int dim>
+void measure(const base::Comm& comm, int increment, const fracture::Body<dim>& body, std::vector<Reaction>& reactions);
+
+}  // namespace perimorph::output

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "perimorph/cases/case.hpp"
+#include "perimorph/io/history.hpp"
+#include "perimorph/output/console.hpp"
+#include "perimorph/output/exports.hpp"
+#include "perimorph/output/field_series.hpp"
+
+namespace perimorph::output {
+
+/// What results have come to, for a run that goes on after them.
+struct ResultsState {
+  double seconds = 0.;         ///< wall-clock time since the start of the run, [s]
+  double seconds_before = 0.;  ///< of them, before this process was started, [s]
+  io::SeriesExtent series;
+  Totals totals;
+  std::vector<double> peaks;                    ///< of each reaction, [force]
+  std::vector<base::GlobalId> peak_increments;  ///< in which increment
+};
+
+/// Everything a run leaves behind of its accepted increments: a row of history.csv, a line on the terminal, fields, and
+/// what is written on request. Rank 0 writes what it gathers from all; spread files each rank by itself.
+template <int dim>
+class Results {
+ public:
+  /// Goes on with the results of an earlier run after that increment, if there are any. Collective.
+  /// @param profile must outlive this
+  /// @throws UserError if the folder cannot be written, or the earlier results are not there.
+  Results(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
+          ConsoleOptions console, base::Profile& profile, int increment = 0,
+          const std::optional<ResultsState>& earlier = {});
+
+  /// Accepted increments are recorded by these too. Local.
+  void add_exports(std::unique_ptr<Exports<dim>> exports) { exports_ = std::move(exports); }
+
+  /// What it has come to; complete on rank 0 only. Local.
+  ResultsState state() const;
+
+  /// Records an increment; fields too if they are due, a bond broke or it is the last. Collective.
+  void accept(int increment, const fracture::Body<dim>& body);
+
+  /// What the current increment is at. Local.
+  void show_progress(int increment, const fracture::Body<dim>& body) {
+    console_.show_progress(increment, body.counts());
+  }
+
+  /// The closing lines: peak and last reaction, counts, profile. Collective.
+  void summarize(const fracture::Body<dim>& body) { console_.summarize(*comm_, body.counts(), totals_, reactions_); }
+
+ private:
+  Teuchos::RCP<const base::Comm> comm_;
+  base::Profile& profile_;
+  double earlier_seconds_;  ///< of the run that this one goes on with
+  int output_every_, last_increment_;
+  Totals totals_;
+  std::vector<Reaction> reactions_;
+  std::vector<Column> columns_;
+  Console console_;
+  std::unique_ptr<io::History> history_;  ///< on rank 0
+  std::unique_ptr<FieldSeries<dim>> fields_;
+  std::unique_ptr<Exports<dim>> exports_;
+
+  double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
+  base::GlobalId count(int increment, const discretization::Counts& counts);
+  IncrementRecord record_of(int increment, const fracture::Body<dim>& body);
+};
+
+}  // namespace perimorph::output

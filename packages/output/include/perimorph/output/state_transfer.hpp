@@ -1,0 +1,30 @@
+#pragma once
+
+#include "perimorph/discretization/saved_state.hpp"
+#include "perimorph/fracture/body.hpp"
+#include "perimorph/io/checkpoint.hpp"
+
+namespace perimorph::output {
+
+/// Global ids of the elements that this rank owns, in the order of their displacements in a saved state. Local.
+template <int dim>
+std::vector<base::GlobalId> owned_ids(const mesh::Mesh<dim>& mesh);
+
+/// A body's state on rank 0, as data sets of a checkpoint. Elements are in the order of their ids and bonds have those
+/// of their points, so that the ranks leave no trace. Collective.
+/// @param owned_elements owned_ids() of the mesh that the state belongs to
+template <int dim>
+io::Checkpoint gather_state(const base::Comm& comm, const discretization::SavedState<dim>& state,
+                            const std::vector<base::GlobalId>& owned_elements);
+
+/// The same of a body as it now is. Collective.
+template <int dim>
+io::Checkpoint gather_state(const base::Comm& comm, const fracture::Body<dim>& body);
+
+/// What a rank needs of a state that rank 0 has: the displacement of all its local elements, and all that is alike on
+/// all ranks. Collective.
+template <int dim>
+discretization::SavedState<dim> share_state(const base::Comm& comm, const io::Checkpoint& gathered,
+                                            const mesh::Mesh<dim>& mesh);
+
+}  // namespace perimorph::output

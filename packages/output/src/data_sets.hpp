@@ -1,0 +1,95 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "perimorph/base/parallel.hpp"
+#include "perimorph/io/checkpoint.hpp"
+
+// What is in a checkpoint is described once, by functions that take a DataSetWriter or a DataSetReader: the first puts
+// values into data sets by name, the second takes them out in the same order.
+
+namespace perimorph::output {
+
+/// Local, on rank 0.
+class DataSetWriter {
+ public:
+  explicit DataSetWriter(io::Checkpoint& checkpoint) : checkpoint_(checkpoint) {}
+
+  template <class... Value>
+  void numbers(const char* name, const Value&... values) {
+    checkpoint_.numbers[name] = {static_cast<double>(values)...};
+  }
+  template <class... Value>
+  void integers(const char* name, const Value&... values) {
+    checkpoint_.integers[name] = {static_cast<base::GlobalId>(values)...};
+  }
+  void list(const char* name, const std::vector<double>& values) { checkpoint_.numbers[name] = values; }
+  void list(const char* name, const std::vector<base::GlobalId>& values) { checkpoint_.integers[name] = values; }
+
+  /// Members of each record, one record after the other.
+  template <class Record, class... Member>
+  void records(const char* name, const std::vector<Record>& records, Member... members) {
+    auto& values = checkpoint_.integers[name];
+    for (const auto& record : records) (values.push_back(record.*members), ...);
+  }
+  /// An array of numbers in each record, one after the other.
+  template <class Record, class Array>
+  void arrays(const char* name, const std::vector<Record>& records, Array Record::*member) {
+    auto& values = checkpoint_.numbers[name];
+    for (const auto& record : records) values.insert(values.end(), (record.*member).begin(), (record.*member).end());
+  }
+
+ private:
+  io::Checkpoint& checkpoint_;
+};
+
+/// What rank 0 has read goes to all ranks: every call is collective.
+class DataSetReader {
+ public:
+  DataSetReader(const base::Comm& comm, const io::Checkpoint& checkpoint) : comm_(comm), checkpoint_(checkpoint) {}
+
+  template <class... Value>
+  void numbers(const char* name, Value&... values) {
+    const auto all = of_rank_0(checkpoint_.numbers, name);
+    std::size_t i = 0;
+    ((values = static_cast<Value>(all.at(i++))), ...);
+  }
+  template <class... Value>
+  void integers(const char* name, Value&... values) {
+    const auto all = of_rank_0(checkpoint_.integers, name);
+    std::size_t i = 0;
+    ((values = static_cast<Value>(all.at(i++))), ...);
+  }
+  void list(const char* name, std::vector<double>& values) { values = of_rank_0(checkpoint_.numbers, name); }
+  void list(const char* name, std::vector<base::GlobalId>& values) { values = of_rank_0(checkpoint_.integers, name); }
+
+  template <class Record, class... Member>
+  void records(const char* name, std::vector<Record>& records, Member... members) {
+    const auto all = of_rank_0(checkpoint_.integers, name);
+    records.resize(all.size() / sizeof...(members));
+    auto value = all.begin();
+    for (auto& record : records) ((record.*members = *value++), ...);
+  }
+  /// Of records that are there already.
+  template <class Record, class Array>
+  void arrays(const char* name, std::vector<Record>& records, Array Record::*member) {
+    const auto all = of_rank_0(checkpoint_.numbers, name);
+    auto value = all.begin();
+    for (auto& record : records) {
+      for (auto& number : record.*member) number = *value++;
+    }
+  }
+
+ private:
+  const base::Comm& comm_;
+  const io::Checkpoint& checkpoint_;
+
+  template <class Map>
+  typename Map::mapped_type of_rank_0(const Map& sets, const char* name) const {
+    using Values = typename Map::mapped_type;
+    return base::gather_on_all(comm_, comm_.getRank() == 0 ? sets.at(name) : Values());
+  }
+};
+
+}  // namespace perimorph::output

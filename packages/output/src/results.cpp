@@ -1,0 +1,133 @@
+#include "perimorph/output/results.hpp"
+
+#include <Teuchos_XMLParameterListHelpers.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+namespace perimorph::output {
+
+using base::GlobalId;
+using fracture::Body;
+
+namespace {
+
+/// A parameter list as lines of XML.
+std::vector<std::string> lines_of(const Teuchos::ParameterList& list) {
+  std::stringstream text;
+  Teuchos::writeParameterListToXmlOStream(list, text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> names_of(const std::vector<Column>& columns) {
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.push_back(column.name);
+  return names;
+}
+
+/// As they were at the end of an earlier run, if there was one.
+template <int dim>
+std::vector<Reaction> reactions_after(const std::vector<std::string>& groups,
+                                      const std::optional<ResultsState>& earlier) {
+  auto reactions = reactions_of<dim>(groups);
+  for (std::size_t i = 0; earlier && i < reactions.size(); ++i) {
+    reactions[i].peak = earlier->peaks.at(i);
+    reactions[i].peak_increment = static_cast<int>(earlier->peak_increments.at(i));
+  }
+  return reactions;
+}
+
+io::History table(const std::string& folder, std::vector<std::string> columns, int increment, bool is_continued) {
+  const std::string file = (std::filesystem::path(folder) / "history.csv").string();
+  columns.insert(columns.begin(), "increment");
+  return is_continued ? io::History::resume(file, columns, increment) : io::History(file, columns);
+}
+
+}  // namespace
+
+template <int dim>
+Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
+                      ConsoleOptions console, base::Profile& profile, int increment,
+                      const std::optional<ResultsState>& earlier)
+    : comm_(comm),
+      profile_(profile),
+      earlier_seconds_(earlier ? earlier->seconds_before : 0.),
+      output_every_(input.output.every),
+      last_increment_(input.loading.increments),
+      totals_(earlier ? earlier->totals : Totals{}),
+      reactions_(reactions_after<dim>(input.output.reactions, earlier)),
+      columns_(history_columns(reactions_)),
+      console_(std::move(console), profile, last_increment_, input.peridynamics.horizon,
+               earlier ? earlier->seconds - earlier->seconds_before : 0.) {
+  base::on_all_ranks(*comm, [&] {
+    if (comm_->getRank() != 0) return;
+    history_ = std::make_unique<io::History>(table(folder, names_of(columns_), increment, earlier.has_value()));
+  });
+  std::optional<io::SeriesExtent> extent;
+  if (earlier) extent = earlier->series;
+  const std::string file = (std::filesystem::path(folder) / (input.name + ".e")).string();
+  fields_ = std::make_unique<FieldSeries<dim>>(
+      comm, SeriesOptions{file, input.title, names_of(columns_), lines_of(input.resolved), input.output.spread_files},
+      extent);
+}
+
+template <int dim>
+ResultsState Results<dim>::state() const {
+  ResultsState state{seconds(), earlier_seconds_, fields_->extent(), totals_, {}, {}};
+  for (const auto& r : reactions_) {
+    state.peaks.push_back(r.peak);
+    state.peak_increments.push_back(r.peak_increment);
+  }
+  return state;
+}
+
+/// Adds an increment to the totals; returns how many bonds broke in it.
+template <int dim>
+GlobalId Results<dim>::count(int increment, const discretization::Counts& counts) {
+  const GlobalId newly_broken = counts.broken_bonds - totals_.broken;
+  if (totals_.first_break == 0 && newly_broken > 0) totals_.first_break = increment;
+  totals_.broken = counts.broken_bonds;
+  totals_.solves += counts.linear_solves;
+  totals_.iterations += counts.cg_iterations;
+  return newly_broken;
+}
+
+/// Collective.
+template <int dim>
+IncrementRecord Results<dim>::record_of(int increment, const Body<dim>& body) {
+  measure(*comm_, increment, body, reactions_);
+  const auto overlap = body.overlap();
+  return {increment,
+          body.load_factor(),
+          body.counts(),
+          body.energies(),
+          seconds(),
+          overlap.depth,
+          {overlap.place.begin(), overlap.place.end()},
+          reactions_};
+}
+
+template <int dim>
+void Results<dim>::accept(int increment, const Body<dim>& body) {
+  const auto timer = profile_.measure(base::Phase::write);
+  const GlobalId newly_broken = count(increment, body.counts());
+  const auto record = record_of(increment, body);
+  std::vector<double> values;
+  for (const auto& column : columns_) values.push_back(column.value(record));
+  if (increment % output_every_ == 0 || newly_broken > 0 || increment == last_increment_) fields_->write(body, values);
+  if (exports_) exports_->accept(increment, body);
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() != 0) return;
+    std::vector<double> row = {static_cast<double>(increment)};
+    row.insert(row.end(), values.begin(), values.end());
+    history_->write(row);
+  });
+  console_.show(record, newly_broken);
+}
+
+template class Results<2>;
+template class Results<3>;
+
+}  // namespace perimorph::output

@@ -1,0 +1,100 @@
+#include "perimorph/output/state_transfer.hpp"
+
+#include <algorithm>
+
+#include "data_sets.hpp"
+
+namespace perimorph::output {
+
+using base::GlobalId;
+using discretization::BrokenBond;
+using discretization::FlagPoint;
+using discretization::SavedState;
+
+namespace {
+
+constexpr const char* displacement_name = "displacement";
+
+/// All but the displacement, which each rank has a part of.
+template <class DataSets, class State, class Flag>
+void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
+  auto& counts = state.counts;
+  sets.numbers("body", state.load_factor, state.force_scale, state.energies.dissipated, state.energies.external_work);
+  sets.integers("body_counts", counts.broken_bonds, counts.damaged_elements, counts.dgfe_elements, counts.unknowns,
+                counts.linear_solves, counts.cg_iterations, counts.topologies, state.break_calls,
+                state.break_calls_before_topology);
+  sets.records("flagged_elements", state.flag_points, &Flag::element, &Flag::growth);
+  sets.arrays("flag_points", state.flag_points, &Flag::centroid);
+  sets.records("broken_bonds", state.broken, &BrokenBond::first, &BrokenBond::second, &BrokenBond::call);
+}
+
+/// Every rank's elements' values out of those of all elements, which rank 0 has. Collective.
+std::vector<double> fetch(const base::Comm& comm, const std::vector<GlobalId>& elements, std::size_t stride,
+                          const std::vector<double>& all) {
+  std::vector<std::vector<GlobalId>> asked(comm.getSize());
+  asked[0] = elements;
+  std::vector<std::vector<double>> answers(comm.getSize());
+  const auto questions = base::exchange(comm, asked);
+  for (std::size_t rank = 0; rank < questions.size(); ++rank) {
+    for (const GlobalId element : questions[rank]) {
+      const auto values = all.begin() + element * static_cast<GlobalId>(stride);
+      answers[rank].insert(answers[rank].end(), values, values + static_cast<GlobalId>(stride));
+    }
+  }
+  return base::exchange(comm, answers)[0];
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<GlobalId> owned_ids(const mesh::Mesh<dim>& mesh) {
+  return {mesh.element_ids.begin(), mesh.element_ids.begin() + mesh.n_owned_elements};
+}
+
+template <int dim>
+io::Checkpoint gather_state(const base::Comm& comm, const SavedState<dim>& state,
+                            const std::vector<GlobalId>& owned_elements) {
+  constexpr auto stride = static_cast<std::size_t>(SavedState<dim>::values_per_element);
+  SavedState<dim> whole = state;
+  whole.broken = base::gather_on_root(comm, state.broken);
+  const auto ids = base::gather_on_root(comm, owned_elements);
+  const auto values = base::gather_on_root(comm, state.displacement);
+  io::Checkpoint checkpoint;
+  if (comm.getRank() != 0) return checkpoint;
+
+  DataSetWriter writer(checkpoint);
+  describe(writer, whole, FlagPoint<dim>{});
+  auto& displacement = checkpoint.numbers[displacement_name];
+  displacement.resize(values.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    std::copy_n(values.begin() + static_cast<long>(i * stride), stride,
+                displacement.begin() + ids[i] * static_cast<long>(stride));
+  }
+  return checkpoint;
+}
+
+template <int dim>
+io::Checkpoint gather_state(const base::Comm& comm, const fracture::Body<dim>& body) {
+  return gather_state(comm, body.save(), owned_ids(body.mesh()));
+}
+
+template <int dim>
+SavedState<dim> share_state(const base::Comm& comm, const io::Checkpoint& gathered, const mesh::Mesh<dim>& mesh) {
+  SavedState<dim> state;
+  DataSetReader reader(comm, gathered);
+  describe(reader, state, FlagPoint<dim>{});
+  const auto all = comm.getRank() == 0 ? gathered.numbers.at(displacement_name) : std::vector<double>();
+  state.displacement = fetch(comm, mesh.element_ids, SavedState<dim>::values_per_element, all);
+  return state;
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                               \
+  template std::vector<GlobalId> owned_ids(const mesh::Mesh<dim>&);                                              \
+  template io::Checkpoint gather_state(const base::Comm&, const SavedState<dim>&, const std::vector<GlobalId>&); \
+  template io::Checkpoint gather_state(const base::Comm&, const fracture::Body<dim>&);                           \
+  template SavedState<dim> share_state(const base::Comm&, const io::Checkpoint&, const mesh::Mesh<dim>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
+
+}  // namespace perimorph::output
