@@ -1,6 +1,7 @@
 #include "perimorph/discretization/boundary_conditions.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "perimorph/base/errors.hpp"
 
@@ -62,6 +63,7 @@ std::vector<double> shape_integrals(const std::vector<Point<dim>>& x) {
 template <int dim>
 std::vector<double> Loads<dim>::forces(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                        const DofMap<dim>& dofs, double load_factor) const {
+  PERIMORPH_ASSERT(std::isfinite(load_factor), "load factor {}", load_factor);
   return integrate(mesh, points, dofs, [=](const Ramp<Point<dim>>& load) { return load.at(load_factor); });
 }
 

@@ -81,6 +81,7 @@ RulePtr file_name(const std::vector<std::string>& endings) {
 }
 
 RulePtr one_of(std::vector<std::string> choices) {
+  PERIMORPH_ASSERT(!choices.empty(), "there is nothing to choose from");
   const auto is_one = [choices](const std::string& value) {
     return std::find(choices.begin(), choices.end(), value) != choices.end();
   };
@@ -100,6 +101,7 @@ RulePtr at_least(double low) {
 }
 
 RulePtr between(double low, double high) {
+  PERIMORPH_ASSERT(low < high, "nothing is between {} and {}", low, high);
   return rule<double>(fmt::format("a number > {} and < {}", low, high),
                       [low, high](double value) { return value > low && value < high; });
 }
@@ -127,6 +129,7 @@ RulePtr increments(const std::string& what) {
 }
 
 RulePtr either(int one, int other) {
+  PERIMORPH_ASSERT(one != other, "{} is no choice", one);
   return rule<int>(fmt::format("{} or {}", one, other), [=](int found) { return found == one || found == other; });
 }
 

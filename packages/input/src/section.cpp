@@ -1,5 +1,7 @@
 #include "perimorph/input/section.hpp"
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::input {
 
 using Teuchos::ParameterList;
@@ -11,6 +13,7 @@ Section Section::of_values(const ParameterList& values, const Mistakes& mistakes
 }
 
 Section Section::section(const std::string& name, const std::string& documentation) const {
+  PERIMORPH_ASSERT(!name.empty(), "{}: a section without a name", path_);
   Section inner = *this;
   inner.path_ += "/" + name;
   if (schema_ != nullptr) {

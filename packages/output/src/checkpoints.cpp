@@ -152,6 +152,7 @@ bool Checkpoints<dim>::is_due(int increment) const {
 template <int dim>
 void Checkpoints<dim>::accept(int increment, fracture::Body<dim>& body, const ResultsState& results,
                               const std::vector<double>& element_costs, bool is_requested) {
+  PERIMORPH_ASSERT(increment > increment_, "increment {} after {}", increment, increment_);
   body_ = body.save();
   owned_elements_ = owned_ids(body.mesh());
   results_ = results;
@@ -165,6 +166,7 @@ void Checkpoints<dim>::accept(int increment, fracture::Body<dim>& body, const Re
 template <int dim>
 void Checkpoints<dim>::write() {
   if (increment_ == 0 || is_on_disk_) return;
+  PERIMORPH_ASSERT(results_.has_value(), "increment {} has no results", increment_);
   auto checkpoint = gather_state(*comm_, body_, owned_elements_);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;

@@ -4,6 +4,7 @@
 
 #include "component_names.hpp"
 #include "file_layout.hpp"
+#include "perimorph/base/errors.hpp"
 #include "perimorph/bonds/crack.hpp"
 #include "perimorph/operators/fields.hpp"
 
@@ -131,6 +132,8 @@ std::vector<double> FieldSeries<dim>::on_nodes(const Body<dim>& body, int compon
 template <int dim>
 std::vector<double> FieldSeries<dim>::on_elements(const std::vector<double>& own) const {
   const auto values = is_spread_ ? own : base::gather_on_root(*comm_, own);
+  PERIMORPH_ASSERT(values.size() == element_place_.size(), "{} values for {} elements", values.size(),
+                   element_place_.size());
   std::vector<double> ordered(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) ordered[element_place_[i]] = values[i];
   return ordered;

@@ -81,6 +81,8 @@ std::vector<int> sort_into_blocks(const std::vector<ElementRecord>& records, con
   const auto types = first_types(keys);
   std::map<BlockKey, std::size_t> block_of;
   for (const auto& key : keys) {
+    PERIMORPH_ASSERT(key.block >= 0 && key.block < static_cast<int>(block_names.size()), "block {} of {}", key.block,
+                     block_names.size());
     const int other_type = static_cast<int>(key.type) - static_cast<int>(types.at(key.block));
     const int id = 10 * (other_type * static_cast<int>(block_names.size()) + key.block + 1) + key.kind + 1;
     std::string name = block_names[key.block] + "_" + kind_names[key.kind];

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::output {
 
 using fracture::Body;
@@ -35,6 +37,8 @@ std::vector<double> own_costs(const Body<dim>& body) {
 template <int dim>
 std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const model::Problem<dim>& problem,
                                    discretization::DiscontinuousElements discontinuous) {
+  PERIMORPH_ASSERT(problem.seeds.empty() || problem.micromodulus.horizon > 0., "seeds with a horizon of {}",
+                   problem.micromodulus.horizon);
   std::vector<double> costs(whole.n_elements(), 1.);
   for (int e = 0; e < whole.n_elements(); ++e) {
     const auto center = mesh::centroid(whole, e);
@@ -60,6 +64,7 @@ std::vector<double> partition_costs(const base::Comm& comm, const Body<dim>& bod
   const auto first = body.mesh().element_ids.begin();
   const auto ids = base::gather_on_root(comm, std::vector<base::GlobalId>(first, first + body.mesh().n_owned_elements));
   const auto costs = base::gather_on_root(comm, own_costs(body));
+  PERIMORPH_ASSERT(ids.size() == costs.size(), "{} elements with {} costs", ids.size(), costs.size());
   std::vector<double> by_id(costs.size());
   for (std::size_t i = 0; i < ids.size(); ++i) by_id[ids[i]] = costs[i];
   return by_id;
@@ -70,6 +75,7 @@ WorkShare measure_work(const base::Comm& comm, const Body<dim>& body) {
   const auto costs = own_costs(body);
   const double own = std::accumulate(costs.begin(), costs.end(), 0.);
   const double total = base::sum(comm, own);
+  PERIMORPH_ASSERT(total > 0., "all elements together cost {}", total);
   return {total, base::max(comm, own) * comm.getSize() / total};
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/cases/geometry.hpp"
 #include "perimorph/operators/fields.hpp"
 
@@ -21,6 +22,7 @@ base::Voigt<dim> interpolated_stress(const Body<dim>& body, const elements::Loca
   const auto stress =
       operators::stress_at_points(model, at.element, body.displacement(), body.system().displacement_at_points());
   const auto n = static_cast<int>(stress.size());
+  PERIMORPH_ASSERT(n == at.shape.size(), "stress at {} points of an element with {} corners", n, at.shape.size());
   Eigen::MatrixXd shapes(n, n), values(n, base::n_voigt<dim>);
   for (int q = 0; q < n; ++q) {
     shapes.row(q) = model.points.shape(at.element, q);

@@ -4,6 +4,7 @@
 
 #include "component_names.hpp"
 #include "own_nodes.hpp"
+#include "perimorph/base/errors.hpp"
 #include "perimorph/base/sums.hpp"
 
 namespace perimorph::output {
@@ -19,12 +20,15 @@ std::vector<Reaction> reactions_of(const std::vector<std::string>& groups) {
 
 template <int dim>
 void measure(const base::Comm& comm, int increment, const fracture::Body<dim>& body, std::vector<Reaction>& reactions) {
+  PERIMORPH_ASSERT(increment > 0, "increment {}", increment);
   struct Sum {
     double force = 0., displacement = 0., nodes = 0.;
   };
   std::vector<Sum> sums(reactions.size());
   std::vector<double*> values;
   for (std::size_t i = 0; i < sums.size(); ++i) {
+    PERIMORPH_ASSERT(reactions[i].component >= 0 && reactions[i].component < dim, "{}: component {}",
+                     reactions[i].column, reactions[i].component);
     for (const int n : own_nodes_in(body, body.mesh().node_sets.at(reactions[i].group))) {
       sums[i].force += body.reaction(n)[reactions[i].component];
       sums[i].displacement += body.displacement()[n * dim + reactions[i].component];

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/output/partition_costs.hpp"
 
 namespace perimorph::output {
@@ -12,7 +13,9 @@ Rebalancing<dim>::Rebalancing(const Teuchos::RCP<const base::Comm>& comm, double
     : comm_(comm),
       largest_imbalance_(largest_imbalance),
       element_costs_(std::move(element_costs)),
-      log_(std::move(log)) {}
+      log_(std::move(log)) {
+  PERIMORPH_ASSERT(largest_imbalance > 0., "a largest imbalance of {}", largest_imbalance);
+}
 
 /// It is worth its price only if the zone has grown since the last one: what was uneven then cannot be mended.
 template <int dim>

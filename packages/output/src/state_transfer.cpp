@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "data_sets.hpp"
+#include "perimorph/base/errors.hpp"
 
 namespace perimorph::output {
 
@@ -37,6 +38,8 @@ std::vector<double> fetch(const base::Comm& comm, const std::vector<GlobalId>& e
   const auto questions = base::exchange(comm, asked);
   for (std::size_t rank = 0; rank < questions.size(); ++rank) {
     for (const GlobalId element : questions[rank]) {
+      PERIMORPH_DEBUG_ASSERT((element + 1) * static_cast<GlobalId>(stride) <= static_cast<GlobalId>(all.size()),
+                             "element {} of {} values, {} each", element, all.size(), stride);
       const auto values = all.begin() + element * static_cast<GlobalId>(stride);
       answers[rank].insert(answers[rank].end(), values, values + static_cast<GlobalId>(stride));
     }
