@@ -5,6 +5,7 @@
 #include <Tpetra_Map_fwd.hpp>
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/discretization/halo_exchange.hpp"
 #include "perimorph/mesh/mesh.hpp"
 
@@ -37,10 +38,20 @@ class DofMap {
   base::GlobalId n_global_nodes() const { return n_global_nodes_; }
 
   /// Local node at each corner of a local element.
-  const int* nodes_of(int element) const { return node_at_corner_.data() + mesh_.first_corner[element]; }
+  const int* nodes_of(int element) const {
+    PERIMORPH_DEBUG_ASSERT(element >= 0 && element < mesh_.n_elements(), "element {} of {}", element,
+                           mesh_.n_elements());
+    return node_at_corner_.data() + mesh_.first_corner[element];
+  }
   /// The local node of the reference mesh that a node stands on.
-  int reference_node(int node) const { return reference_nodes_[node]; }
-  base::GlobalId global_node(int node) const { return global_nodes_[node]; }
+  int reference_node(int node) const {
+    PERIMORPH_DEBUG_ASSERT(node >= 0 && node < n_nodes(), "node {} of {}", node, n_nodes());
+    return reference_nodes_[node];
+  }
+  base::GlobalId global_node(int node) const {
+    PERIMORPH_DEBUG_ASSERT(node >= 0 && node < n_nodes(), "node {} of {}", node, n_nodes());
+    return global_nodes_[node];
+  }
 
   /// Degrees of freedom that this rank owns, and those with all copies (owned first).
   const Teuchos::RCP<const Map>& owned_dofs() const { return owned_dofs_; }

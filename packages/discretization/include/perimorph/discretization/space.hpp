@@ -22,7 +22,10 @@ class Space {
   const DofMap<dim>& dofs() const { return dofs_; }
   std::size_t n_local() const { return fixed_.size(); }  ///< degrees of freedom with copies
   std::size_t n_owned() const { return static_cast<std::size_t>(dofs_.n_owned_nodes()) * dim; }
-  bool is_prescribed(int dof) const { return fixed_[dof] != 0; }
+  bool is_prescribed(int dof) const {
+    PERIMORPH_DEBUG_ASSERT(dof >= 0 && dof < static_cast<int>(n_local()), "degree of freedom {} of {}", dof, n_local());
+    return fixed_[dof] != 0;
+  }
   const std::vector<int>& prescribed() const { return prescribed_; }  ///< local degrees of freedom, ascending
 
   /// Completes a displacement from its values on owned nodes: copies, and what is prescribed. Collective.

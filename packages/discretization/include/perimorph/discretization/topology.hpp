@@ -70,7 +70,10 @@ class Topology {
   const std::vector<morphing::ElementClass>& classes() const { return classes_; }
   const std::vector<char>& discontinuous() const { return discontinuous_; }  ///< per element, right in the halo too
   base::GlobalId n_discontinuous() const { return n_discontinuous_; }        ///< over all ranks
-  const DofMap<dim>& dofs() const { return *dofs_; }
+  const DofMap<dim>& dofs() const {
+    PERIMORPH_DEBUG_ASSERT(is_built(), "there is no numbering yet");
+    return *dofs_;
+  }
   /// The numbering before the last update(), until it is dropped: then, and if nothing changed, the present one.
   const DofMap<dim>& old_dofs() const { return old_dofs_ ? *old_dofs_ : *dofs_; }
   void drop_old_dofs() { old_dofs_.reset(); }

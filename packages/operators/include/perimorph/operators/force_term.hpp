@@ -3,6 +3,7 @@
 #include <Teuchos_RCP.hpp>
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/base/field.hpp"
 #include "perimorph/bonds/bond_change.hpp"
 
@@ -67,6 +68,7 @@ class LinearTerm : public ForceTerm<dim> {
 
   /// 1/2 u . F(u).
   double energy(base::ConstField u) const override {
+    PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) >= n_owned_, "{} displacements, {} owned", u.size(), n_owned_);
     std::vector<double> force(u.size(), 0.);
     this->add_force(u, base::field(force));
     double energy = 0.;

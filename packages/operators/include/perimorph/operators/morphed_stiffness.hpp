@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/bonds/bond_families.hpp"
 
 namespace perimorph::operators {
@@ -27,13 +28,19 @@ class MorphedStiffness {
 
   /// E at a point, [stress].
   const base::Stiffness<dim>& at(int element, int q) const {
+    PERIMORPH_DEBUG_ASSERT(element >= 0 && element < static_cast<int>(first_.size()), "element {} of {}", element,
+                           first_.size());
     return first_[element] < 0 ? e0_ : reduced_[first_[element] + q];
   }
   const base::Stiffness<dim>& e0() const { return e0_; }
   /// Whether E = E0 in the whole element.
   bool is_e0(int element) const { return first_[element] < 0; }
   /// Whether E = 0 in the whole element.
-  bool is_zero(int element) const { return is_zero_[element]; }
+  bool is_zero(int element) const {
+    PERIMORPH_DEBUG_ASSERT(element >= 0 && element < static_cast<int>(is_zero_.size()), "element {} of {}", element,
+                           is_zero_.size());
+    return is_zero_[element];
+  }
 
  private:
   base::Stiffness<dim> e0_;

@@ -29,7 +29,11 @@ class PointBasis : public Tpetra::Operator<double> {
              const std::vector<char>& discontinuous);
 
   /// Whether the q-th "node" of a local element is its q-th point. The same on every rank that has the element.
-  bool holds(int element) const { return holds_[element]; }
+  bool holds(int element) const {
+    PERIMORPH_DEBUG_ASSERT(element >= 0 && element < static_cast<int>(holds_.size()), "element {} of {}", element,
+                           holds_.size());
+    return holds_[element];
+  }
 
   /// Moves nodes whose unknowns are a point's to that point. Local.
   /// @param coordinates of the owned nodes, [length]
