@@ -80,7 +80,7 @@ RulePtr file_name(const std::vector<std::string>& endings) {
   });
 }
 
-RulePtr one_of(std::vector<std::string> choices) {
+RulePtr one_of(const std::vector<std::string>& choices) {
   PERIMORPH_ASSERT(!choices.empty(), "there is nothing to choose from");
   const auto is_one = [choices](const std::string& value) {
     return std::find(choices.begin(), choices.end(), value) != choices.end();

@@ -56,7 +56,7 @@ RulePtr changeable(const RulePtr& rule);
 RulePtr any_text();
 RulePtr text(const std::string& what);  ///< not empty
 RulePtr file_name(const std::vector<std::string>& endings);
-RulePtr one_of(std::vector<std::string> choices);
+RulePtr one_of(const std::vector<std::string>& choices);
 RulePtr any_number();
 RulePtr above(double low);
 RulePtr at_least(double low);
