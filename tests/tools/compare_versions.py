@@ -1,6 +1,6 @@
 """What tools/studies/compare-versions compares by: two runs of one case, and the same with one value changed.
 
-    compare_versions.py PERIMORPH FOLDER
+    compare_versions.py PERIMORPH MPIEXEC RUNS
 """
 
 import pathlib
@@ -14,12 +14,11 @@ import h5py
 import netCDF4
 import numpy
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools/studies/lib"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from fixture import PERIMORPH
 from identical import first_difference
 
-PERIMORPH, RUNS = sys.argv[1], pathlib.Path(sys.argv[2])
-del sys.argv[1:]
+RUNS = pathlib.Path(sys.argv.pop(1))
 
 SETTINGS = ["Peridynamics/Horizon=6", "Peridynamics/Characteristic Length=0.4", "Loading/Increments=3",
             "Boundary Conditions/Displacements/pull/Rate=0.01", "Output/Crack=true", "Output/Checkpoint Every=1"]

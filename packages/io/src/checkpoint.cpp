@@ -69,7 +69,7 @@ Values get(hid_t data, hid_t type) {
 std::string image_of(const Checkpoint& checkpoint) {
   constexpr std::size_t growth = 1 << 20;  // of the image, bytes
   const Handle access = in_memory();
-  require(H5Pset_fapl_core(access, growth, 0) >= 0);
+  require(H5Pset_fapl_core(access, growth, false) >= 0);
   const Handle file(H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   for (const auto& [name, values] : checkpoint.numbers) {
     put(file, name, H5T_NATIVE_DOUBLE, values.size(), values.data());
@@ -88,7 +88,7 @@ std::string image_of(const Checkpoint& checkpoint) {
 
 Checkpoint checkpoint_in(std::string image) {
   const Handle access = in_memory();
-  require(H5Pset_fapl_core(access, image.size(), 0) >= 0);
+  require(H5Pset_fapl_core(access, image.size(), false) >= 0);
   require(H5Pset_file_image(access, image.data(), image.size()) >= 0);
   const Handle file(H5Fopen("image", H5F_ACC_RDONLY, access), H5Fclose);
   H5G_info_t group;
