@@ -53,6 +53,7 @@ std::vector<mesh::CrackFacet<dim>> facets_of(const std::vector<PreCrack>& cracks
 
 template <int dim>
 std::vector<Point<dim>> places_of(const Probe& probe) {
+  PERIMORPH_ASSERT(probe.divisions >= 1, "{}: {} divisions", probe.name, probe.divisions);
   const auto corner = [&](std::size_t k) { return point<dim>(probe.points, k * dim); };
   std::vector<Point<dim>> places;
   for (std::size_t k = 0; (k + 2) * dim <= probe.points.size(); ++k) {

@@ -74,7 +74,7 @@ std::string cell(const std::string& text) {
 std::string markdown_of(const ParameterList& list, const std::string& path) {
   std::string rows, sublists;
   for (const auto& item : list) {
-    const std::string &name = item.first, here = path + "/" + name;
+    const std::string &name = item.first, here = fmt::format("{}/{}", path, name);
     const Teuchos::ParameterEntry& entry = item.second;
     if (entry.isList()) {
       sublists +=

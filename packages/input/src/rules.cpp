@@ -28,7 +28,9 @@ RulePtr rule(const std::string& allowed, Condition condition, std::vector<std::s
 }  // namespace
 
 Rule::Rule(std::string allowed, Test test, std::vector<std::string> choices)
-    : allowed_(std::move(allowed)), test_(std::move(test)), choices_(std::move(choices)) {}
+    : allowed_(std::move(allowed)), test_(std::move(test)), choices_(std::move(choices)) {
+  PERIMORPH_ASSERT(!allowed_.empty() && test_, "a rule '{}' needs words for what is allowed, and a test", allowed_);
+}
 
 Rule Rule::with_presence(Presence presence) const {
   Rule copy = *this;
@@ -57,7 +59,10 @@ void Rule::validate(const ParameterEntry& entry, const std::string& name, const 
       fmt::format("{}/{}: found {}; allowed is {}", list, name, Teuchos::toString(entry.getAny(false)), allowed_));
 }
 
-const Rule& rule_of(const ParameterEntry& declaration) { return dynamic_cast<const Rule&>(*declaration.validator()); }
+const Rule& rule_of(const ParameterEntry& declaration) {
+  PERIMORPH_ASSERT(!declaration.validator().is_null(), "'{}' is declared without a rule", declaration.docString());
+  return dynamic_cast<const Rule&>(*declaration.validator());
+}
 
 RulePtr required(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_presence(Presence::required))); }
 RulePtr optional(const RulePtr& rule) { return Teuchos::rcp(new Rule(rule->with_presence(Presence::optional))); }
@@ -73,6 +78,7 @@ RulePtr text(const std::string& what) {
 }
 
 RulePtr file_name(const std::vector<std::string>& endings) {
+  PERIMORPH_ASSERT(!endings.empty(), "no file ends in nothing");
   const std::string allowed = "a readable name of a file that ends in " + base::quoted_list(endings, " or ");
   return rule<std::string>(allowed, [endings](const std::string& value) {
     const auto ending = std::filesystem::path(value).extension();
@@ -93,10 +99,12 @@ RulePtr any_number() {
 }
 
 RulePtr above(double low) {
+  PERIMORPH_ASSERT(std::isfinite(low), "a limit of {}", low);
   return rule<double>(fmt::format("a number > {}", low), [low](double value) { return value > low; });
 }
 
 RulePtr at_least(double low) {
+  PERIMORPH_ASSERT(std::isfinite(low), "a limit of {}", low);
   return rule<double>(fmt::format("a number >= {}", low), [low](double value) { return value >= low; });
 }
 

@@ -41,6 +41,7 @@ std::vector<std::string> Section::names_of_entries() const {
 
 void Section::anything(const std::string& name, ParameterList& variable, const std::string& documentation) const {
   if (schema_ != nullptr) {
+    PERIMORPH_ASSERT(!schema_->isSublist(name), "{}/{} is declared twice", path_, name);
     schema_->sublist(name, false, documentation);
   } else {
     variable = values_->sublist(name);

@@ -17,7 +17,7 @@ class Appended {
   /// Takes an array and returns its tag.
   template <class T>
   std::string array(const char* name, const char* type, int n_components, const std::vector<T>& values) {
-    const std::string tag = fmt::format(
+    std::string tag = fmt::format(
         "<DataArray Name=\"{}\" type=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", name,
         type, n_components, bytes_.size());
     const std::uint64_t size = values.size() * sizeof(T);

@@ -270,7 +270,11 @@ ExodusSeries<dim>::ExodusSeries(std::string file, std::string title, Names names
       title_(std::move(title)),
       part_ending_(part ? ending_of(*part) : ""),
       names_(std::move(names)),
-      information_(std::move(information)) {}
+      information_(std::move(information)) {
+  PERIMORPH_ASSERT(!file_.empty(), "a series without a name");
+  PERIMORPH_ASSERT(!part || (part->rank >= 0 && part->rank < part->n_ranks), "{}: part {} of {}", file_, part->rank,
+                   part->n_ranks);
+}
 
 template <int dim>
 ExodusSeries<dim>::~ExodusSeries() {
@@ -298,6 +302,8 @@ void ExodusSeries<dim>::close() {
 
 template <int dim>
 void ExodusSeries<dim>::resume(const SeriesExtent& extent) {
+  PERIMORPH_ASSERT(exodus_id_ < 0, "{}: resumed after start()", file_);
+  PERIMORPH_ASSERT(extent.files >= 0 && extent.steps >= 0, "{}: {} files, {} steps", file_, extent.files, extent.steps);
   n_files_ = extent.files;
   n_steps_ = extent.steps;
 }

@@ -205,7 +205,7 @@ class Reader {
       if (start.rfind("-1", 0) == 0 || start.rfind("N,", 0) == 0 || start.rfind("n,", 0) == 0) break;
       result_.node_tags.push_back(whole_number(column(line, 0, format.integer_width)));
       auto& point = result_.coordinates.emplace_back();
-      auto begin = static_cast<std::size_t>(format.n_integers * format.integer_width);
+      auto begin = static_cast<std::size_t>(format.n_integers) * static_cast<std::size_t>(format.integer_width);
       for (int d = 0; d < std::min(3, format.n_reals); ++d) {
         point[static_cast<std::size_t>(d)] = real_number(column(line, begin, format.real_width));
         begin += static_cast<std::size_t>(format.real_width);
@@ -311,8 +311,11 @@ class Reader {
       for (const std::int64_t value : values) extend(component, value);
       n += values.size();
     }
-    if (kind == "node") node_components_.push_back(std::move(component));
-    if (kind == "elem") element_components_.push_back(std::move(component));
+    if (kind == "node") {
+      node_components_.push_back(std::move(component));
+    } else if (kind == "elem") {
+      element_components_.push_back(std::move(component));
+    }
   }
 
   void extend(Component& component, std::int64_t value) const {

@@ -250,8 +250,8 @@ class Reader {
 
   const Spelling& spelling_of(std::string type, std::int64_t n_corners, const std::string& block) const {
     std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::toupper(c); });
-    const auto found = std::find_if(std::begin(spellings), std::end(spellings),
-                                    [&](const Spelling& spelling) { return type == spelling.name; });
+    const auto* found = std::find_if(std::begin(spellings), std::end(spellings),
+                                     [&](const Spelling& spelling) { return type == spelling.name; });
     if (found == std::end(spellings) || n_nodes(found->shape) != n_corners) {
       fail(
           "block \"{}\" has elements of type \"{}\" with {} nodes; allowed are TRI3, QUAD4, TETRA4, PYRAMID5, WEDGE6 "

@@ -41,16 +41,16 @@ double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffn
 }
 
 template <int dim>
-double element_size(const base::Comm& comm, const mesh::Mesh<dim>& body, const Problem<dim>& problem) {
+double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
   mesh::Mesh<dim> in_seeds, all;
-  in_seeds.coordinates = all.coordinates = body.coordinates;
+  in_seeds.coordinates = all.coordinates = mesh.coordinates;
   const auto add = [&](mesh::Mesh<dim>& part, int e) {
-    part.types.push_back(body.types[e]);
-    part.corners.insert(part.corners.end(), body.corners_of(e), body.corners_of(e) + body.n_corners(e));
+    part.types.push_back(mesh.types[e]);
+    part.corners.insert(part.corners.end(), mesh.corners_of(e), mesh.corners_of(e) + mesh.n_corners(e));
     part.first_corner.push_back(static_cast<int>(part.corners.size()));
   };
-  for (int e = 0; e < body.n_owned_elements; ++e) {
-    const auto center = mesh::centroid(body, e);
+  for (int e = 0; e < mesh.n_owned_elements; ++e) {
+    const auto center = mesh::centroid(mesh, e);
     const bool is_in_a_seed = std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& seed) {
       return seed.alpha(center, morphing::BlendingFunction::linear) == 1.;
     });

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "perimorph/base/errors.hpp"
+
 namespace perimorph::output {
 
 Console::Console(ConsoleOptions options, const base::Profile& profile, int last_increment, double horizon,
@@ -15,7 +17,9 @@ Console::Console(ConsoleOptions options, const base::Profile& profile, int last_
       last_increment_(last_increment),
       horizon_(horizon),
       last_accepted_(elapsed),
-      last_line_(elapsed) {}
+      last_line_(elapsed) {
+  PERIMORPH_ASSERT(last_increment >= 1 && horizon > 0., "{} increments, a horizon of {}", last_increment, horizon);
+}
 
 void Console::clear_progress() const {
   if (options_.shows_progress) fmt::print("\r\033[K");

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/base/parallel.hpp"
 #include "perimorph/io/checkpoint.hpp"
 
@@ -67,6 +68,8 @@ class DataSetReader {
   template <class Record, class... Member>
   void records(const char* name, std::vector<Record>& records, Member... members) {
     const auto all = of_rank_0(checkpoint_.integers, name);
+    PERIMORPH_ASSERT(all.size() % sizeof...(members) == 0, "{}: {} values, {} a record", name, all.size(),
+                     sizeof...(members));
     records.resize(all.size() / sizeof...(members));
     auto value = all.begin();
     for (auto& record : records) ((record.*members = *value++), ...);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/cases/case.hpp"
 #include "perimorph/mesh/mesh.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
@@ -13,6 +14,7 @@ namespace perimorph::cases {
 /// Numbers of a case as a point, from the offset on. Local.
 template <int dim>
 base::Point<dim> point(const std::vector<double>& values, std::size_t offset = 0) {
+  PERIMORPH_ASSERT(offset + dim <= values.size(), "a point from number {} of {}", offset, values.size());
   return Eigen::Map<const base::Point<dim>>(values.data() + offset);
 }
 

@@ -141,6 +141,7 @@ class Section {
     using Storage = detail::Storage<T>;
     using Stored = std::decay_t<decltype(Storage::put(example))>;
     if (schema_ != nullptr) {
+      PERIMORPH_ASSERT(!schema_->isParameter(name), "{}/{} is declared twice", path_, name);
       schema_->set(name, Storage::put(example), documentation, is_changeable_ ? input::changeable(rule) : rule);
     } else if (values_->isParameter(name)) {
       variable = Storage::take(values_->get<Stored>(name));
