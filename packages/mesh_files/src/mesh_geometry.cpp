@@ -18,8 +18,6 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh_files/gmsh.hpp"
 
-extern char** environ;
-
 namespace perimorph::mesh_files {
 
 namespace {

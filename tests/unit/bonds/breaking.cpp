@@ -24,7 +24,7 @@ class Breaking : public testing::Test {
   std::vector<Point2> deformed(const Eigen::Matrix2d& gradient) const {
     std::vector<Point2> u;
     for (int i = 0; i < body.points.size(); ++i)
-      u.push_back(gradient * body.points.position(i) - body.points.position(i));
+      u.emplace_back(gradient * body.points.position(i) - body.points.position(i));
     return u;
   }
   std::vector<Point2> widened(double stretch) const { return deformed((1. + stretch) * Eigen::Matrix2d::Identity()); }
