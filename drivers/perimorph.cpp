@@ -42,6 +42,9 @@ cases::Case read_case(const base::Comm& comm, const Arguments& arguments) {
   return input;
 }
 
+/// What is wrong with a name; nothing if it is one.
+std::string check_name(const std::string& text) { return text.empty() ? "found \"\"; allowed is a name" : ""; }
+
 void add_case_options(CLI::App& command, Arguments& arguments) {
   command.add_option("case", arguments.case_file, "Case file (XML)")->required();
   command.add_option("--set", arguments.overrides, "Override a parameter: \"Section/Sub/Name=value\"")
@@ -57,7 +60,7 @@ int main(int argc, char** argv) {
   Arguments arguments;
   auto* run = app.add_subcommand("run", "Run a case to its last increment");
   add_case_options(*run, arguments);
-  run->add_option("--output", arguments.output, "Folder for the results (default: results/<case>)");
+  run->add_option("--output", arguments.output, "Folder for the results (default: results/<case>)")->check(check_name);
   run->add_flag("--no-progress", arguments.no_progress, "No progress bar, even on a terminal");
   run->add_flag("--restart", arguments.restart, "Go on after the newest checkpoint in the folder for the results");
   auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what it would cost");

@@ -83,18 +83,25 @@ inline const std::string valid = R"xml(<ParameterList name="plate">
 </ParameterList>
 )xml";
 
-/// A mesh with its groups, of one square or cube.
+/// A mesh with its groups, of two rectangles or cuboids.
 inline std::string mesh_of(int dimension) {
   const bool flat = dimension == 2;
   std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n";
   for (const char* name : {"1 \"left\"", "2 \"right\"", "3 \"top\""})
     text += (flat ? "1 " : "2 ") + std::string(name) + "\n";
-  text += std::to_string(dimension) + " 4 \"body\"\n$EndPhysicalNames\n";
-  return text + (flat ? "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n4\n1 1 2 1 1 1 4\n"
-                        "2 1 2 2 2 2 3\n3 1 2 3 3 3 4\n4 3 2 4 4 1 2 3 4\n$EndElements\n"
-                      : "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n"
-                        "$Elements\n4\n1 3 2 1 1 1 4 8 5\n2 3 2 2 2 2 3 7 6\n3 3 2 3 3 3 4 8 7\n"
-                        "4 5 2 4 4 1 2 3 4 5 6 7 8\n$EndElements\n");
+  text += std::to_string(dimension) + " 4 \"body\"\n$EndPhysicalNames\n$Nodes\n" + (flat ? "6" : "12") + "\n";
+  int node = 0;
+  for (const int z : {-10, 10}) {
+    if (flat && z > 0) break;
+    for (const char* xy : {"0 -10", "12 -10", "12 10", "0 10", "200 -10", "200 10"}) {
+      text += std::to_string(++node) + " " + xy + " " + std::to_string(flat ? 0 : z) + "\n";
+    }
+  }
+  return text + "$EndNodes\n$Elements\n6\n" +
+         (flat ? "1 1 2 1 1 1 4\n2 1 2 2 2 5 6\n3 1 2 3 3 3 4\n4 1 2 3 3 3 6\n5 3 2 4 4 1 2 3 4\n6 3 2 4 4 2 5 6 3\n"
+               : "1 3 2 1 1 1 4 10 7\n2 3 2 2 2 5 6 12 11\n3 3 2 3 3 3 4 10 9\n4 3 2 3 3 3 6 12 9\n"
+                 "5 5 2 4 4 1 2 3 4 7 8 9 10\n6 5 2 4 4 2 5 6 3 8 11 12 9\n") +
+         "$EndElements\n";
 }
 
 /// A piece of it that most tests of numbers replace.

@@ -397,7 +397,8 @@ TEST_F(CaseFile, WhatDoesNotFitTheMeshIsListedWithTheOthers) {
       </ParameterList>
     </ParameterList>)xml");
 
-  const std::string message = error(text, {"Output/Probes/far/Points={9, 9}"});
+  const std::string message =
+      error(text, {"Output/Probes/far/Points={9, 90}", "Morphing/Seeds/bar/Upper Corner={7, 1}"});
 
   EXPECT_THAT(message, StartsWith("5 mistakes in "));
   for (const char* piece :
@@ -405,7 +406,7 @@ TEST_F(CaseFile, WhatDoesNotFitTheMeshIsListedWithTheOthers) {
         ":36: /Boundary Conditions/Displacements: the body can move as a whole: translation in y",
         ":46: /Boundary Conditions/Displacements/pull again: prescribes another x displacement than "
         "/Boundary Conditions/Displacements/pull on 1 node",
-        "--set: /Output/Probes/far/Points: (9, 9) is outside the body"}) {
+        "--set: /Output/Probes/far/Points: (9, 90) is outside the body"}) {
     EXPECT_THAT(message, HasSubstr(piece));
   }
 }

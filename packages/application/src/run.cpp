@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "outlook.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/sums.hpp"
 #include "perimorph/base/temporary_folder.hpp"
@@ -72,13 +73,14 @@ void describe(const base::Comm& comm, const cases::Case& input, const Problem<di
             problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
 }
 
-/// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds,
-/// whose size is returned. Collective.
+/// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds;
+/// returns what the case would choose better. Collective.
 template <int dim>
-double place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
-                           const cases::Case& input, Problem<dim>& problem, base::Profile& profile,
-                           const base::Log& log) {
+std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
+                                             const cases::Case& input, Problem<dim>& problem, base::Profile& profile,
+                                             const base::Log& log) {
   fracture::place_automatic_seeds(comm, mesh, input.numerical, input.loading.increments, problem, profile, log);
+  warn_of_seeds_everywhere(*comm, mesh, input, problem, log);
   const double size = model::element_size(*comm, mesh, problem);
   const bool is_calibrated = model::calibrate_to_mesh(problem, input.numerical, size);
   if (std::isinf(problem.critical_stretch)) {
@@ -88,7 +90,9 @@ double place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mes
               problem.critical_stretch, is_calibrated ? "calibrated to the mesh," : "by the integral,",
               problem.fracture_energy);
   }
-  return size;
+  auto lines = cases::advice(input, size);
+  for (auto& line : cases::advice_on_stretch(input, problem.critical_stretch)) lines.push_back(std::move(line));
+  return lines;
 }
 
 /// One run of a case.
@@ -116,7 +120,8 @@ class Run {
     output::Rebalancing<dim> rebalancing(comm_, input_.solver.largest_imbalance, std::move(costs), console_.log);
     auto mesh = distribute(whole, rebalancing);
     describe(*comm_, input_, problem_, mesh, console_.log);
-    place_and_calibrate(comm_, mesh, input_, problem_, profile_, console_.log);
+    advise(console_.log, input_, place_and_calibrate(comm_, mesh, input_, problem_, profile_, console_.log),
+           spdlog::level::info);
     try {
       fracture::LoopPosition position{checkpoints_.increment()};
       while (!is_done_on(mesh, rebalancing, position)) mesh = distribute(whole, rebalancing);
@@ -139,9 +144,10 @@ class Run {
 
   mesh::Mesh<dim> read() {
     const auto timer = profile_.measure(base::Phase::read);
-    auto whole = cases::read_whole_mesh<dim>(*comm_, input_, folder_);
-    checkpoints_.identify(whole);
-    return whole;
+    auto checked = cases::read_whole_mesh<dim>(*comm_, input_, folder_);
+    warn(console_.log, input_, checked.warnings);
+    checkpoints_.identify(checked.whole);
+    return std::move(checked.whole);
   }
 
   mesh::Mesh<dim> distribute(const mesh::Mesh<dim>& whole, const output::Rebalancing<dim>& rebalancing) {
@@ -158,7 +164,12 @@ class Run {
     output::Results<dim> results(comm_, input_, folder_, console_, profile_, increment, checkpoints_.results());
     results.add_exports(std::make_unique<output::Exports<dim>>(comm_, mesh, input_, folder_, increment));
     checkpoints_.remove_later();
-    if (start_) body.restore(output::share_state(*comm_, *start_, mesh));
+    if (start_) {
+      body.restore(output::share_state(*comm_, *start_, mesh));
+    } else {
+      body.update_topology();
+      check_that_bonds_can_break(*comm_, input_, problem_, body);
+    }
     start_.reset();
     output::RunObserver<dim> observer(comm_, results, checkpoints_, rebalancing, requests_);
     const auto& loading = input_.loading;
@@ -264,18 +275,20 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
   const base::TemporaryFolder folder;
   const auto log = base::make_log(*comm, verbosity == Verbosity::quiet);
   auto problem = cases::make_problem<dim>(input);
-  const auto whole = cases::read_whole_mesh<dim>(*comm, input, folder.path());
+  const auto [whole, warnings] = cases::read_whole_mesh<dim>(*comm, input, folder.path());
   const auto costs = output::expected_costs(whole, problem, input.numerical.discontinuous);
   const auto mesh = model::distribute_mesh(*comm, whole, problem, costs);
   log->info("{}", input::listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
+  warn(log, input, warnings);
 
-  const double size = place_and_calibrate(comm, mesh, input, problem, profile, log);
+  advise(log, input, place_and_calibrate(comm, mesh, input, problem, profile, log), spdlog::level::warn);
   fracture::Body<dim> body(comm, mesh, problem, input.numerical, profile);
   body.update_topology();
+  check_that_bonds_can_break(*comm, input, problem, body);
   describe_sizes(*comm, body, *log);
-  for (const auto& line : cases::advice(input, size)) log->warn("advice: {}: {}", input.file, line);
+  describe_first_break(*comm, input, problem, body, log);
 }
 
 /// Calls an action with the case's dimension as a constant: the one place where it is chosen.

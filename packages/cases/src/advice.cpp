@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "perimorph/materials/micromodulus.hpp"
 #include "perimorph/model/calibration.hpp"
@@ -17,6 +18,10 @@ constexpr double least_horizon = 3.;   // in element sizes
 constexpr double most_cut_off = 0.05;  // of the micromodulus, by the horizon
 constexpr double least_rim = 1.;       // over which alpha falls, in horizons
 constexpr double least_zone = 2.;      // inner radius, in horizons
+
+// Of brittle solids s_crit is between some 1e-5 and some 1e-2.
+constexpr double least_stretch = 1e-7, most_stretch = 0.2;
+constexpr double least_first_break = 0.1, most_first_breaks = 100.;  // in increments; in all increments
 
 class Advice {
  public:
@@ -123,5 +128,34 @@ class Advice {
 }  // namespace
 
 std::vector<std::string> advice(const Case& input, double element_size) { return Advice(input, element_size).all(); }
+
+std::vector<std::string> advice_on_stretch(const Case& input, double critical_stretch) {
+  if (std::isinf(critical_stretch) || input.morphing.seeds.empty()) return {};
+  if (critical_stretch >= least_stretch && critical_stretch <= most_stretch) return {};
+  const bool is_large = critical_stretch > most_stretch;
+  return {fmt::format(
+      "/Material/{}: bonds break at a stretch of {:.4g}, where E s_crit = {:.4g}: that looks like a mistake of units. "
+      "{}",
+      input.material.critical_stretch ? "Critical Stretch" : "Fracture Energy", critical_stretch,
+      input.material.youngs_modulus * critical_stretch,
+      is_large ? "The model is one of small strains. With mm and MPa, G_c is in N/mm, that is kJ/m2; it is not K_c"
+               : "Brittle solids break at 1e-5 to 1e-2. With m and Pa, G_c is in J/m2; with mm and MPa in N/mm")};
+}
+
+std::vector<std::string> advice_on_load(const Case& input, double first_break) {
+  const int n = input.loading.increments;
+  if (first_break > n) {
+    const bool is_far = first_break > most_first_breaks * n;
+    return {
+        fmt::format("/Loading/Increments: nothing breaks in {} increments: no bond reaches the critical stretch{}{}", n,
+                    std::isinf(first_break) ? "" : fmt::format(" before increment {:.4g}", std::ceil(first_break)),
+                    is_far ? ". Are loads in the units of material and mesh?" : "")};
+  }
+  if (first_break >= least_first_break) return {};
+  return {
+      fmt::format("/Boundary Conditions: the first increment is already {:.4g} times the load at which the first bond "
+                  "breaks: loads should grow in smaller steps. Are they in the units of material and mesh?",
+                  1. / first_break)};
+}
 
 }  // namespace perimorph::cases

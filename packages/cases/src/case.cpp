@@ -85,12 +85,12 @@ void check_mesh_of(const Case& input, Mistakes& mistakes) {
   const base::TemporaryFolder folder;
   mesh::Mesh<dim> whole;
   try {
-    whole = read_opened_mesh<dim>(input, folder.path());
+    whole = read_closed_mesh<dim>(input, folder.path());
   } catch (const base::UserError& error) {
     mistakes.add(input::line_of(input.lines, "/Mesh/File"), "/Mesh/File", error.what());
     return;
   }
-  check_against_mesh(input, whole, mistakes);
+  open_and_check(input, whole, mistakes);
 }
 
 void name_results(Case& input) {

@@ -66,17 +66,15 @@ std::vector<Point<dim>> places_of(const Probe& probe) {
 }
 
 template <int dim>
-mesh::Mesh<dim> read_opened_mesh(const Case& input, const std::string& folder) {
-  auto whole = mesh_files::mesh_and_read<dim>(input.mesh.file, folder, input.mesh.scale);
-  if (!input.pre_cracks.empty()) mesh::open_along<dim>(whole, facets_of<dim>(input.pre_cracks));
-  return whole;
+mesh::Mesh<dim> read_closed_mesh(const Case& input, const std::string& folder) {
+  return mesh_files::mesh_and_read<dim>(input.mesh.file, folder, input.mesh.scale);
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                          \
   template morphing::Zone<dim> zone_of<dim>(const Seed&);                                   \
   template std::vector<mesh::CrackFacet<dim>> facets_of<dim>(const std::vector<PreCrack>&); \
   template std::vector<Point<dim>> places_of<dim>(const Probe&);                            \
-  template mesh::Mesh<dim> read_opened_mesh<dim>(const Case&, const std::string&);
+  template mesh::Mesh<dim> read_closed_mesh<dim>(const Case&, const std::string&);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

@@ -1,15 +1,17 @@
 #include "mesh_checks.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "body_parts.hpp"
 #include "group_checks.hpp"
+#include "part_checks.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/cases/geometry.hpp"
 #include "perimorph/elements/locator.hpp"
+#include "place_checks.hpp"
+#include "support_advice.hpp"
 
 namespace perimorph::cases {
 
@@ -19,91 +21,24 @@ using base::Point;
 using input::in_quotes;
 using input::Mistakes;
 
-constexpr double negligible = 1e-6;  // motion of the supports, relative to that of the part
-constexpr int most_listed = 10;      // parts in a message
-
-const std::string displacements_path = "/Boundary Conditions/Displacements";
-
-/// The rigid motions of one part that its supports leave free.
 template <int dim>
-class RigidMotions {
- public:
-  static constexpr int n_rotations = dim == 2 ? 1 : 3, n_motions = dim + n_rotations;
-  using Row = Eigen::Matrix<double, 1, n_motions>;
-
-  RigidMotions(const Point<dim>& center, double size) : center_(center), size_(size) {}
-
-  /// A support: the component of each rigid motion at the point, rotations by angles of 1 / size.
-  void hold(const Point<dim>& point, int component) {
-    Row row = Row::Zero();
-    row[component] = 1.;
-    const Point<dim> arm = (point - center_) / size_;
-    if constexpr (dim == 2) {
-      row[dim] = component == 0 ? -arm[1] : arm[0];
-    } else {
-      const int next = (component + 1) % 3, last = (component + 2) % 3;
-      row[dim + next] = arm[last];
-      row[dim + last] = -arm[next];
-    }
-    sum_ += row.transpose() * row;
-    ++n_held_;
-  }
-
-  /// What is free, in words ("translation in x, rotation"), or "".
-  std::string free() const {
-    std::vector<std::string> names;
-    for (int motion = 0; motion < n_motions; ++motion) {
-      if (sum_(motion, motion) > threshold()) continue;
-      names.push_back(motion < dim ? fmt::format("translation in {}", "xyz"[motion])
-                      : dim == 2   ? "rotation"
-                                   : fmt::format("rotation about {}", "xyz"[motion - dim]));
-    }
-    const int n_others = n_motions - rank() - static_cast<int>(names.size());
-    if (n_others > 0) names.emplace_back(n_others == 1 ? "rotation" : fmt::format("{} rotations", n_others));
-    return fmt::format("{}", fmt::join(names, ", "));
-  }
-
- private:
-  double threshold() const { return negligible * negligible * static_cast<double>(n_held_); }
-
-  int rank() const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n_motions, n_motions>> solver(sum_);
-    return static_cast<int>((solver.eigenvalues().array() > threshold()).count());
-  }
-
-  Point<dim> center_;
-  double size_;
-  Eigen::Matrix<double, n_motions, n_motions> sum_ = Eigen::Matrix<double, n_motions, n_motions>::Zero();
-  long n_held_ = 0;
-};
-
-/// The part of the body that each node is in, from 0: elements that share a node are of one part.
-template <int dim>
-std::vector<int> part_of_nodes(const mesh::Mesh<dim>& mesh) {
-  std::vector<int> lower(mesh.n_nodes());  // a node of the same part, itself for the lowest
-  std::iota(lower.begin(), lower.end(), 0);
-  const auto lowest = [&](int node) {
-    while (lower[node] != node) node = lower[node] = lower[lower[node]];
-    return node;
-  };
-  for (int e = 0; e < mesh.n_elements(); ++e) {
-    for (int c = 1; c < mesh.n_corners(e); ++c) {
-      const int a = lowest(mesh.corners_of(e)[c - 1]), b = lowest(mesh.corners_of(e)[c]);
-      lower[std::max(a, b)] = std::min(a, b);
-    }
-  }
-  std::vector<int> part(lower.size());
-  int n_parts = 0;
-  for (int node = 0; node < mesh.n_nodes(); ++node) part[node] = lower[node] == node ? n_parts++ : part[lowest(node)];
-  return part;
+Eigen::AlignedBox<double, dim> box_around(const mesh::Mesh<dim>& mesh) {
+  Eigen::AlignedBox<double, dim> box;
+  for (const auto& x : mesh.coordinates) box.extend(x);
+  return box;
 }
 
-/// One connected part of the body.
+/// Such that powers of its lengths are numbers.
 template <int dim>
-struct Part {
-  int n_elements = 0;
-  Eigen::AlignedBox<double, dim> box;
-};
+bool has_usual_size(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& mistakes) {
+  constexpr double smallest = 1e-30, largest = 1e30;
+  const double size = box_around(whole).diagonal().norm();
+  if (size >= smallest && size <= largest) return true;
+  mistakes.add(input::line_of(input.lines, "/Mesh/Scale"), "/Mesh/Scale",
+               fmt::format("found {:.6g}, by which the body has the size {:.3g}; allowed are bodies from {} to {}",
+                           input.mesh.scale, size, smallest, largest));
+  return false;
+}
 
 template <int dim>
 class Checks {
@@ -115,10 +50,12 @@ class Checks {
     check_groups(input_.resolved, input_.lines, mesh_, mistakes_);
     const bool are_supports_known = mistakes_.none_in(displacements_path);
     check_contradictions();
-    if (are_supports_known) check_free_motions();
+    if (are_supports_known) check_free_motions(input_, mesh_, mistakes_);
     if (!mistakes_.none_in("/Mesh")) return;  // lengths may be wrong
     check_probes();
-    if (mistakes_.none_in("/Peridynamics")) check_horizon();
+    if (!mistakes_.none_in("/Peridynamics")) return;
+    check_longest_horizon();
+    check_shortest_horizon();
   }
 
  private:
@@ -156,7 +93,7 @@ class Checks {
     }
     for (const auto& [pair, nodes] : nodes_of_pair) {
       const auto &a = conditions[pair.first], &b = conditions[pair.second];
-      add(displacements_path + "/" + b.name,
+      add(fmt::format("{}/{}", displacements_path, b.name),
           fmt::format("prescribes another {} displacement than {}/{} on {} node{} that both groups have, the first at "
                       "({:.6g}); allowed is one value per node",
                       "xyz"[b.component], displacements_path, a.name, nodes.size(), nodes.size() == 1 ? "" : "s",
@@ -164,47 +101,22 @@ class Checks {
     }
   }
 
-  // ---- parts of the body that are not held ----
-
-  void check_free_motions() {
-    const std::vector<int> part = part_of_nodes(mesh_);
-    const std::vector<Part<dim>> parts = describe_parts(part);
-    std::vector<RigidMotions<dim>> motions;
-    for (const auto& one : parts) motions.emplace_back(one.box.center(), one.box.diagonal().norm());
-    for (const auto& d : input_.boundary_conditions.displacements) {
-      for (const int node : mesh_.node_sets.at(d.node_set)) {
-        motions[part[node]].hold(mesh_.coordinates[node], d.component);
-      }
-    }
-    int n_free = 0;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      const std::string names = motions[p].free();
-      if (names.empty() || ++n_free > most_listed) continue;
-      add(displacements_path,
-          fmt::format("{} can move as a whole: {}; prescribe displacements against it", name_of(parts, p), names));
-    }
-    if (n_free > most_listed) add(displacements_path, fmt::format("and {} other parts", n_free - most_listed));
-  }
-
-  std::vector<Part<dim>> describe_parts(const std::vector<int>& part) const {
-    std::vector<Part<dim>> parts(1 + static_cast<std::size_t>(*std::max_element(part.begin(), part.end())));
-    for (int e = 0; e < mesh_.n_elements(); ++e) ++parts[part[mesh_.corners_of(e)[0]]].n_elements;
-    for (int node = 0; node < mesh_.n_nodes(); ++node) parts[part[node]].box.extend(mesh_.coordinates[node]);
-    return parts;
-  }
-
-  static std::string name_of(const std::vector<Part<dim>>& parts, std::size_t p) {
-    if (parts.size() == 1) return "the body";
-    const Point<dim> low = parts[p].box.min(), high = parts[p].box.max();
-    return fmt::format("part {} of {} of the body ({} element{}, from ({:.6g}) to ({:.6g}))", p + 1, parts.size(),
-                       parts[p].n_elements, parts[p].n_elements == 1 ? "" : "s",
-                       fmt::join(low.begin(), low.end(), ", "), fmt::join(high.begin(), high.end(), ", "));
-  }
-
   // ---- the horizon ----
 
+  /// There are no longer bonds than the body is.
+  void check_longest_horizon() {
+    const Eigen::AlignedBox<double, dim> box = box_around(mesh_);
+    const double size = box.diagonal().norm();
+    if (input_.morphing.seeds.empty() || input_.peridynamics.horizon <= size) return;
+    add("/Peridynamics/Horizon",
+        fmt::format(
+            "found {:.6g}; allowed is up to {:.6g}, the longest distance in the body, which is from {} to {}. Is "
+            "the unit that of the mesh?",
+            input_.peridynamics.horizon, size, shown<dim>(box.min()), shown<dim>(box.max())));
+  }
+
   /// With a horizon that ends inside the element hardly any bond leads out of it, and the zone is no solid body.
-  void check_horizon() {
+  void check_shortest_horizon() {
     for (const Seed& seed : input_.morphing.seeds) {
       if (seed.shape == SeedShape::automatic) continue;
       const auto zone = zone_of<dim>(seed);
@@ -234,11 +146,19 @@ class Checks {
 }  // namespace
 
 template <int dim>
-void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole, input::Mistakes& mistakes) {
+std::vector<std::string> open_and_check(const Case& input, mesh::Mesh<dim>& whole, input::Mistakes& mistakes) {
+  if (!has_usual_size(input, whole, mistakes)) return {};
+  if (mistakes.none_in("/Mesh")) check_places(input, whole, mistakes);
+  auto warnings = loose_connections(whole);
+  if (!input.pre_cracks.empty()) mesh::open_along<dim>(whole, facets_of<dim>(input.pre_cracks));
   Checks<dim>(input, whole, mistakes).run();
+  if (!mistakes.empty()) return {};
+  for (auto& line : warnings) line = "/Mesh/File: " + line;
+  for (const auto& line : advice_on_supports(input, whole)) warnings.push_back(line);
+  return warnings;
 }
 
-template void check_against_mesh(const Case&, const mesh::Mesh<2>&, input::Mistakes&);
-template void check_against_mesh(const Case&, const mesh::Mesh<3>&, input::Mistakes&);
+template std::vector<std::string> open_and_check(const Case&, mesh::Mesh<2>&, input::Mistakes&);
+template std::vector<std::string> open_and_check(const Case&, mesh::Mesh<3>&, input::Mistakes&);
 
 }  // namespace perimorph::cases

@@ -6,12 +6,14 @@
 
 namespace perimorph::cases {
 
-/// What a case and its whole mesh must agree on: the groups exist and are of the right kind, no two displacements
-/// contradict each other on a node, every part of the body (elements connected by nodes) is held against all rigid
-/// motions, probes are in it, and the horizon reaches beyond the elements inside the seeds. Local.
+/// Opens a case's whole mesh along the pre-cracks, and finds what the two must agree on: pre-cracks and seeds are in
+/// the body, groups exist and are of the right kind, no two displacements contradict each other on a node, every part
+/// of the body is held against all rigid motions, probes are in it, and the horizon reaches beyond the elements inside
+/// the seeds, but not beyond the body. Local.
 /// @param input of a case with mistakes, what is sound; nothing is said of what depends on the rest
 /// @param mistakes those of the case; to these are added
+/// @return what can be computed, but is hardly meant so, a line each; nothing if there are mistakes
 template <int dim>
-void check_against_mesh(const Case& input, const mesh::Mesh<dim>& whole, input::Mistakes& mistakes);
+std::vector<std::string> open_and_check(const Case& input, mesh::Mesh<dim>& whole, input::Mistakes& mistakes);
 
 }  // namespace perimorph::cases

@@ -1,8 +1,10 @@
 #include "perimorph/cases/problem.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "mesh_checks.hpp"
+#include "perimorph/base/errors.hpp"
 #include "perimorph/cases/geometry.hpp"
 
 namespace perimorph::cases {
@@ -16,6 +18,21 @@ discretization::Loads<dim> make_loads(const BoundaryConditions& conditions) {
     tractions.push_back({t.group, {point<dim>(t.rate), point<dim>(t.constant)}});
   }
   return {std::move(tractions), {point<dim>(conditions.body_force_rate), point<dim>(conditions.body_force_constant)}};
+}
+
+/// Extreme numbers, each allowed by itself, may give none together.
+template <int dim>
+void check_numbers(const Case& input, const model::Problem<dim>& problem) {
+  const bool breaks = input.material.breaks();
+  const auto is_sound = [](double value) { return std::isfinite(value) && value > 0.; };
+  const double tau0 = problem.micromodulus.tau0, stretch = problem.critical_stretch, energy = problem.fracture_energy;
+  if (is_sound(tau0) && (!breaks || (is_sound(stretch) && is_sound(energy)))) return;
+  throw base::UserError(
+      fmt::format("{}: /Material and /Peridynamics give tau0 = {:.4g}, s_crit = {:.4g}, G_c = {:.4g}, with E = {:.4g}, "
+                  "horizon = {:.4g}, "
+                  "l = {:.4g}; allowed are numbers that give finite ones above 0",
+                  input.file, tau0, stretch, energy, input.material.youngs_modulus, problem.micromodulus.horizon,
+                  problem.micromodulus.characteristic_length));
 }
 
 }  // namespace
@@ -48,26 +65,27 @@ model::Problem<dim> make_problem(const Case& input) {
       problem.seeds.push_back(zone_of<dim>(seed));
     }
   }
+  check_numbers(input, problem);
   return problem;
 }
 
 template <int dim>
-mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder) {
-  mesh::Mesh<dim> whole;
+CheckedMesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder) {
+  CheckedMesh<dim> result;
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
-    whole = read_opened_mesh<dim>(input, folder);
+    result.whole = read_closed_mesh<dim>(input, folder);
     input::Mistakes mistakes(input.file);
-    check_against_mesh(input, whole, mistakes);
+    result.warnings = open_and_check(input, result.whole, mistakes);
     mistakes.report();
   });
-  return whole;
+  return result;
 }
 
 template model::Problem<2> make_problem<2>(const Case&);
-template mesh::Mesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const std::string&);
+template CheckedMesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const std::string&);
 
 template model::Problem<3> make_problem<3>(const Case&);
-template mesh::Mesh<3> read_whole_mesh<3>(const base::Comm&, const Case&, const std::string&);
+template CheckedMesh<3> read_whole_mesh<3>(const base::Comm&, const Case&, const std::string&);
 
 }  // namespace perimorph::cases

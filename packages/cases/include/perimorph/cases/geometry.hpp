@@ -30,10 +30,10 @@ std::vector<mesh::CrackFacet<dim>> facets_of(const std::vector<PreCrack>& cracks
 template <int dim>
 std::vector<base::Point<dim>> places_of(const Probe& probe);
 
-/// The case's mesh, opened along its pre-cracks. A .geo file is meshed by gmsh first, and the mesh kept in the folder.
-/// Local.
+/// The case's mesh, not opened along its pre-cracks yet. A .geo file is meshed by gmsh first, and the mesh kept in the
+/// folder. Local.
 /// @throws UserError if it cannot be read.
 template <int dim>
-mesh::Mesh<dim> read_opened_mesh(const Case& input, const std::string& folder);
+mesh::Mesh<dim> read_closed_mesh(const Case& input, const std::string& folder);
 
 }  // namespace perimorph::cases

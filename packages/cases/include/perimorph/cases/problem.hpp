@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "perimorph/base/parallel.hpp"
 #include "perimorph/cases/case.hpp"
@@ -10,13 +11,20 @@
 namespace perimorph::cases {
 
 /// A case in the terms of the packages that compute it. Local.
+/// @throws UserError if its numbers, together, give some that are not finite or zero.
 template <int dim>
 model::Problem<dim> make_problem(const Case& input);
 
+template <int dim>
+struct CheckedMesh {
+  mesh::Mesh<dim> whole;              ///< on rank 0, empty on others
+  std::vector<std::string> warnings;  ///< of what can be computed, but is hardly meant so; on rank 0
+};
+
 /// Reads the case's mesh on rank 0 (a .geo file is meshed by gmsh first, and the mesh kept in the folder), opens it
-/// along the pre-cracks and checks the case against it. The mesh is whole on rank 0, empty on others. Collective.
+/// along the pre-cracks and checks the case against it. Collective.
 /// @throws UserError, on all ranks.
 template <int dim>
-mesh::Mesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder);
+CheckedMesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder);
 
 }  // namespace perimorph::cases

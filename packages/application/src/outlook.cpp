@@ -1,0 +1,112 @@
+#include "outlook.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/cases/advice.hpp"
+#include "perimorph/fracture/first_break.hpp"
+#include "perimorph/output/reactions.hpp"
+
+namespace perimorph::application {
+
+using base::GlobalId;
+
+namespace {
+
+/// The largest of the reactions that the run will record, if loads grow by a factor.
+template <int dim>
+std::string largest_reaction(const base::Comm& comm, const cases::Case& input, const fracture::Body<dim>& body,
+                             double factor) {
+  auto reactions = output::reactions_of<dim>(input.output.reactions);
+  output::measure(comm, 1, body, reactions);
+  const auto largest = std::max_element(reactions.begin(), reactions.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.force) < std::abs(b.force);
+  });
+  if (largest == reactions.end()) return "";
+  return fmt::format(", reaction {} = {:.4g}", largest->column, factor * largest->force);
+}
+
+}  // namespace
+
+void warn(const base::Log& log, const cases::Case& input, const std::vector<std::string>& lines) {
+  for (const auto& line : lines) log->warn("warning: {}: {}", input.file, line);
+}
+
+void advise(const base::Log& log, const cases::Case& input, const std::vector<std::string>& lines,
+            spdlog::level::level_enum level) {
+  for (const auto& line : lines) log->log(level, "advice: {}: {}", input.file, line);
+}
+
+template <int dim>
+void warn_of_seeds_everywhere(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const cases::Case& input,
+                              const model::Problem<dim>& problem, const base::Log& log) {
+  constexpr double nearly_all = 0.9;
+  const auto is_automatic = [](const cases::Seed& seed) { return seed.shape == cases::SeedShape::automatic; };
+  const auto& seeds = input.morphing.seeds;
+  if (std::none_of(seeds.begin(), seeds.end(), is_automatic)) return;
+  GlobalId n_covered = 0;
+  for (int e = 0; e < mesh.n_owned_elements; ++e) {
+    const auto center = mesh::centroid(mesh, e);
+    n_covered += std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& zone) {
+      return zone.alpha(center, morphing::BlendingFunction::linear) == 1.;
+    });
+  }
+  const double share = static_cast<double>(base::sum(comm, n_covered)) / static_cast<double>(mesh.n_global_elements);
+  if (share < nearly_all) return;
+  warn(log, input,
+       {fmt::format(
+           "/Morphing/Seeds: automatic seeds cover {:.0f} % of the elements: nearly all of the body is peridynamic. "
+           "Make their radius (two horizons if not given) smaller, or take \"Everything\"",
+           100. * share)});
+}
+
+template <int dim>
+void check_that_bonds_can_break(const base::Comm& comm, const cases::Case& input, const model::Problem<dim>& problem,
+                                const fracture::Body<dim>& body) {
+  if (std::isinf(problem.critical_stretch) || input.morphing.seeds.empty()) return;
+  const auto& classes = body.topology().classes();
+  const auto n_own =
+      std::count(classes.begin(), classes.begin() + body.mesh().n_owned_elements, morphing::ElementClass::pd);
+  if (base::sum(comm, static_cast<GlobalId>(n_own)) > 0) return;
+  throw base::UserError(fmt::format(
+      "{}: /Morphing/Seeds: no element is peridynamic, so that nothing can ever break; allowed are zones in "
+      "which the morphing function is 1 up to a horizon, {:.4g}, around some element",
+      input.file, input.peridynamics.horizon));
+}
+
+template <int dim>
+void describe_first_break(const base::Comm& comm, const cases::Case& input, const model::Problem<dim>& problem,
+                          fracture::Body<dim>& body, const base::Log& log) {
+  if (std::isinf(problem.critical_stretch) || input.morphing.seeds.empty()) return;
+  log->info("strength         E s_crit = {:.4g}: about the stress that breaks the material where there is no crack",
+            input.material.youngs_modulus * problem.critical_stretch);
+  if (!problem.is_proportional) return;  // one solution does not tell others
+  const double last = input.loading.increments;
+  body.apply_load(last);
+  try {
+    body.solve(fracture::Accuracy::breaking);
+  } catch (const base::ComputationError& error) {
+    warn(log, input, {fmt::format("the elastic body cannot be solved: {}", error.what())});
+    return;
+  }
+  const double load = fracture::load_of_first_break(comm, body, problem.critical_stretch);
+  if (std::isfinite(load)) {
+    log->info("first break      at load {:.4g}, in increment {:.0f} of {:.0f}{}", load, std::max(1., std::ceil(load)),
+              last, largest_reaction(comm, input, body, load / last));
+  }
+  advise(log, input, cases::advice_on_load(input, load), spdlog::level::warn);
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                            \
+  template void warn_of_seeds_everywhere(const base::Comm&, const mesh::Mesh<dim>&, const cases::Case&,       \
+                                         const model::Problem<dim>&, const base::Log&);                       \
+  template void check_that_bonds_can_break(const base::Comm&, const cases::Case&, const model::Problem<dim>&, \
+                                           const fracture::Body<dim>&);                                       \
+  template void describe_first_break(const base::Comm&, const cases::Case&, const model::Problem<dim>&,       \
+                                     fracture::Body<dim>&, const base::Log&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
+
+}  // namespace perimorph::application

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "perimorph/cases/case.hpp"
+#include "perimorph/input/mistakes.hpp"
+#include "perimorph/mesh/mesh.hpp"
+
+namespace perimorph::cases {
+
+inline constexpr const char* displacements_path = "/Boundary Conditions/Displacements";
+
+/// Every part of the body is held against all rigid motions, also where parts hang on each other by hinges only. Local.
+/// @param whole opened along the pre-cracks; all groups of the displacements are in it
+template <int dim>
+void check_free_motions(const Case& input, const mesh::Mesh<dim>& whole, input::Mistakes& mistakes);
+
+/// Where a mesh does not hold together although it looks so: parts that touch or overlap and share no nodes, sides that
+/// lie on each other, hinges. A line each. Local.
+/// @param whole not opened along the pre-cracks yet
+template <int dim>
+std::vector<std::string> loose_connections(const mesh::Mesh<dim>& whole);
+
+}  // namespace perimorph::cases

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "perimorph/mesh/pre_crack.hpp"
+
+namespace perimorph::mesh {
+
+/// Whether a pre-crack can part anything: none of it may be in the body, or only on its surface; and it may be too
+/// short, less than a quarter of each element that it is in.
+enum class CrackPlace { outside, too_short, inside };
+
+/// Local.
+/// @param whole a mesh that is not opened along the crack yet
+/// @param crack facets, (n), [length]
+template <int dim>
+CrackPlace place_of(const Mesh<dim>& whole, const std::vector<CrackFacet<dim>>& crack);
+
+}  // namespace perimorph::mesh

@@ -1,0 +1,146 @@
+#include "perimorph/mesh/parts.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "perimorph/base/point_tree.hpp"
+#include "perimorph/mesh/shared_sides.hpp"
+#include "perimorph/mesh/sorted_sides.hpp"
+
+namespace perimorph::mesh {
+
+namespace {
+
+/// Numbers that are joined into sets; the lowest of each stands for it.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : lower_(n) { std::iota(lower_.begin(), lower_.end(), 0); }
+
+  int lowest(int i) {
+    while (lower_[i] != i) i = lower_[i] = lower_[lower_[i]];
+    return i;
+  }
+
+  void join(int i, int j) {
+    const int a = lowest(i), b = lowest(j);
+    lower_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> lower_;
+};
+
+/// The elements around each node of the boundary.
+template <int dim>
+std::map<int, std::vector<int>> elements_around_boundary(const Mesh<dim>& mesh) {
+  std::map<int, std::vector<int>> around;
+  for (const auto& side : mesh.boundary) {
+    for (const int node : side_nodes(mesh, side)) around[node];
+  }
+  std::vector<std::vector<int>*> of_node(mesh.n_nodes(), nullptr);
+  for (auto& [node, elements] : around) of_node[node] = &elements;
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    for (int c = 0; c < mesh.n_corners(e); ++c) {
+      if (auto* elements = of_node[mesh.corners_of(e)[c]]) elements->push_back(e);
+    }
+  }
+  return around;
+}
+
+/// Whether two elements share a side that has the node.
+template <int dim>
+bool are_connected(const Mesh<dim>& mesh, int element, int other, int node) {
+  const int side = shared_side(mesh, element, other);
+  if (side < 0) return false;
+  const auto nodes = side_nodes(mesh, {element, side});
+  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+}
+
+/// Elements around a node, by the sides through it that connect them.
+template <int dim>
+std::vector<std::vector<int>> connected(const Mesh<dim>& mesh, const std::vector<int>& elements, int node) {
+  DisjointSets sets(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (are_connected(mesh, elements[i], elements[j], node)) sets.join(static_cast<int>(i), static_cast<int>(j));
+    }
+  }
+  std::map<int, std::vector<int>> groups;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    groups[sets.lowest(static_cast<int>(i))].push_back(elements[i]);
+  }
+  std::vector<std::vector<int>> lists;
+  for (const auto& [lowest, members] : groups) lists.push_back(members);
+  return lists;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<Hinge> hinges(const Mesh<dim>& whole) {
+  std::vector<Hinge> found;
+  for (const auto& [node, elements] : elements_around_boundary(whole)) {
+    auto groups = connected(whole, elements, node);
+    if (groups.size() > 1) found.push_back({node, std::move(groups)});
+  }
+  return found;
+}
+
+template <int dim>
+std::vector<int> parts_of_elements(const Mesh<dim>& mesh, const std::vector<Hinge>& hinges) {
+  std::vector<char> is_hinge(mesh.n_nodes(), 0);
+  for (const auto& hinge : hinges) is_hinge[hinge.node] = 1;
+  std::vector<int> first_at(mesh.n_nodes(), -1);  // element at each node
+  DisjointSets sets(mesh.types.size());
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    for (int c = 0; c < mesh.n_corners(e); ++c) {
+      const int node = mesh.corners_of(e)[c];
+      if (is_hinge[node] != 0) continue;
+      if (first_at[node] < 0) first_at[node] = e;
+      sets.join(first_at[node], e);
+    }
+  }
+  for (const auto& hinge : hinges) {
+    for (const auto& group : hinge.groups) {
+      for (const int e : group) sets.join(group.front(), e);
+    }
+  }
+  std::vector<int> part(mesh.types.size());
+  int n_parts = 0;
+  for (int e = 0; e < mesh.n_elements(); ++e) part[e] = sets.lowest(e) == e ? n_parts++ : part[sets.lowest(e)];
+  return part;
+}
+
+template <int dim>
+std::vector<std::pair<int, int>> coincident_nodes(const Mesh<dim>& whole) {
+  constexpr double tolerance = 1e-6;
+  std::map<int, double> reach;  // of the boundary's nodes
+  for (const auto& side : whole.boundary) {
+    for (const int node : side_nodes(whole, side)) reach[node] = tolerance * radius(whole, side.element);
+  }
+  std::vector<int> nodes;
+  std::vector<Point<dim>> points;
+  for (const auto& entry : reach) {
+    nodes.push_back(entry.first);
+    points.push_back(whole.coordinates[entry.first]);
+  }
+  const base::PointTree<dim> tree(points);
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const int j : tree.within(points[i], reach.at(nodes[i]))) {
+      if (j > static_cast<int>(i)) pairs.emplace_back(nodes[i], nodes[j]);
+    }
+  }
+  return pairs;
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                          \
+  template std::vector<Hinge> hinges(const Mesh<dim>&);                                     \
+  template std::vector<int> parts_of_elements(const Mesh<dim>&, const std::vector<Hinge>&); \
+  template std::vector<std::pair<int, int>> coincident_nodes(const Mesh<dim>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
+
+}  // namespace perimorph::mesh
