@@ -26,6 +26,34 @@ class Help(InFolder):
                 self.assertEqual(told.returncode, 0, told.stderr)
                 self.assertIn(f"{tool.relative_to(ROOT)}", told.stdout)
 
+    def test_nothing_is_installed_to_explain_a_tool(self):
+        """Without the packages of Debian, which this takes away from Python, a tool would install them."""
+        (self.folder / "sitecustomize.py").write_text(
+            "import sys\nsys.path[:] = [place for place in sys.path if 'dist-packages' not in place]\n")
+        for tool in ["report", "plot-history", "compare-runs", "compare-slab", "studies/scaling-study"]:
+            with self.subTest(tool):
+                told = subprocess.run([ROOT / "tools" / tool, "--help"], capture_output=True, text=True, timeout=60,
+                                      env={**os.environ, "PYTHONPATH": str(self.folder)})
+                self.assertEqual((told.returncode, told.stderr), (0, ""))
+                self.assertIn(f"tools/{tool}", told.stdout)
+
+
+class Mistakes(InFolder):
+    def test_an_empty_name_of_a_file_is_refused(self):
+        for tool in ["report", "plot-history", "render", "join", "compare-calculix"]:
+            told = subprocess.run([ROOT / "tools" / tool, self.folder, "--output", ""], capture_output=True, text=True, timeout=60)
+            self.assertEqual(told.returncode, 2, tool)
+            self.assertIn('found ""; allowed is a name', told.stderr)
+
+    def test_numbers_of_ranks_that_no_machine_has(self):
+        case = self.folder / "case.xml"
+        case.write_text("")
+        environment = {name: value for name, value in os.environ.items() if not name.endswith("JOB_ID")}
+        for ranks in ["999999", "0", "-1", "2.5", "two"]:
+            told = subprocess.run([ROOT / "tools/run", case, "-n", ranks], capture_output=True, text=True, timeout=60, env=environment)
+            self.assertEqual(told.returncode, 2, ranks)
+            self.assertIn(f"-n {ranks}: ", told.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

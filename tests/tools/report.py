@@ -15,6 +15,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from fixture import PERIMORPH, TOOLS, InFolder
 
+import case_file
 import runs
 
 RUN = pathlib.Path(sys.argv.pop(1)) / "small_plate/out"
@@ -88,6 +89,30 @@ class Report(InFolder):
         page = self.page("--no-pictures", run=pressed)
         self.assertRegex(page.text, r"Warnings\s*warning: crack faces overlap, by [\d.e-]+ at \(")
 
+    def test_tells_of_a_run_that_failed_before_its_first_increment(self):
+        failed = self.folder / "failed"
+        run = subprocess.run([PERIMORPH, "run", RUN.parent / "small_plate.xml", "--output", failed, "--quiet",
+                              "--set", "Solver/Maximum Iterations=1", "--set", "Solver/Tolerance=1e-14"],
+                             capture_output=True, text=True, timeout=60)
+        self.assertEqual(run.returncode, 3, run.stderr)
+        page = self.page(run=failed)
+        self.assert_stands_alone(page)
+        self.assertRegex(page.text, r"The run ended with an error: \S.*")
+        for piece in ["Plate with an edge crack, pulled apart", "400 elements", "/Peridynamics/Horizon", "preconditioner"]:
+            self.assertIn(piece, page.text)
+        self.assertNotIn("svg", page.tags)
+
+    def test_tells_of_numbers_that_are_not_finite(self):
+        run = self.folder / "run"
+        shutil.copytree(RUN, run)
+        lines = (run / "history.csv").read_text().splitlines()
+        for row, value in [(5, "nan"), (7, "-inf")]:
+            cells = lines[row].split(",")
+            cells[lines[0].split(",").index("reaction_top_y")] = value
+            lines[row] = ",".join(cells)
+        (run / "history.csv").write_text("\n".join([*lines, ""]))
+        self.assertIn("reaction_top_y is not finite from row 5 of history.csv on", self.page("--no-pictures", run=run).text)
+
     def test_what_is_no_run_is_refused(self):
         for run, piece in [(self.folder / "absent", "no such directory"), (self.folder, "history.csv")]:
             made = self.report(run)
@@ -99,6 +124,33 @@ class Report(InFolder):
         made = subprocess.run([TOOLS / "plot-history", RUN, "-o", picture], capture_output=True, text=True, timeout=60)
         self.assertEqual(made.returncode, 0, made.stderr)
         self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+
+class Curves(InFolder):
+    """A top that is pulled in y, and a left side, held in x, that shares its upper corner."""
+
+    ROWS = ["increment,load_factor,broken_bonds,reaction_top_y,displacement_top_y,reaction_left_y,displacement_left_y",
+            "1,1,0,10,0.1,2,0.05", "2,2,0,20,0.2,4,0.1"]
+
+    def curves(self, *groups):
+        """With the given groups moved."""
+        (self.folder / "history.csv").write_text("\n".join([*self.ROWS, ""]))
+        case = {"Boundary Conditions": {"Displacements": {"hold": {"Group": "left", "Component": "x"},
+                                                          **{group: {"Group": group, "Component": "y", "Rate": 0.1} for group in groups}}}}
+        case_file.write_case(self.folder / "resolved.xml", case)
+        return runs.curves_of(runs.History(str(self.folder)))
+
+    def test_are_those_of_groups_that_are_moved(self):
+        self.assertEqual(self.curves("top"), [("displacement_top_y", "reaction_top_y")])
+        self.assertEqual(len(self.curves("top", "left")), 2)
+
+    def test_of_a_body_that_only_tractions_load_are_over_the_load(self):
+        self.assertEqual(self.curves(), [("load_factor", "reaction_top_y"), ("load_factor", "reaction_left_y")])
+
+    def test_of_a_history_alone_are_all_that_move(self):
+        self.curves()
+        (self.folder / "resolved.xml").unlink()
+        self.assertEqual(len(runs.curves_of(runs.History(str(self.folder)))), 2)
 
 
 class Events(InFolder):
@@ -117,6 +169,10 @@ class Events(InFolder):
     def test_that_fall_together_are_one(self):
         found = runs.events_of(self.history([1, 2, 0.1], [0, 0, 50]), "reaction_top_y")
         self.assertEqual([(event.row, event.text) for event in found], [(2, "first break, drop from 2 to 0.1")])
+
+    def test_do_not_come_from_numbers_that_are_none(self):
+        found = runs.events_of(self.history([1, "nan", 2, "inf", 0.1], [0, 0, 0, 0, 0]), "reaction_top_y")
+        self.assertEqual([event.text for event in found][-1], "last increment")
 
 
 class LogFile(unittest.TestCase):

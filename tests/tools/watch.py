@@ -108,6 +108,24 @@ class Watch(InFolder):
         self.assertEqual(state["profile"][-1][0], "total")
         self.assertTrue(state["over"])
 
+    def test_follows_a_run_whose_numbers_are_none(self):
+        self.fill()
+        lines = (RUN / "history.csv").read_text().splitlines()
+        for row in range(4, len(lines)):
+            cells = lines[row].split(",")
+            for name, value in [("reaction_top_y", "nan"), ("displacement_top_y", "inf"), ("elastic_energy", "-nan")]:
+                cells[lines[0].split(",").index(name)] = value
+            lines[row] = ",".join(cells)
+        (self.run_folder / "history.csv").write_text("\n".join([*lines, ""]))
+        with netCDF4.Dataset(sorted(self.run_folder.glob("small_plate.e*"))[-1], "a") as file:
+            file["vals_nod_var1"][-1, 0] = numpy.nan
+        address = self.watch()
+        state = self.state(address)
+        self.assertEqual(state["curve"]["y"][3:], [None] * 7)
+        self.assertIsInstance(state["curve"]["y"][0], float)
+        self.assertTrue(any("reaction_top_y is not finite from row 4" in line for line in state["warnings"]), state["warnings"])
+        self.assertEqual(self.read(address + "/picture/damage")[:8], b"\x89PNG\r\n\x1a\n")
+
     def test_draws_three_dimensional_bodies(self):
         self.fill(RUNS / "small_block/out")
         watch = functions_of_watch()

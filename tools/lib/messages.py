@@ -1,5 +1,6 @@
 """Shared by the Python tools: error messages, and installing what a tool needs."""
 
+import argparse
 import difflib
 import importlib
 import importlib.util
@@ -23,6 +24,13 @@ def nearest(name, known):
     return "there are " + ", ".join(known)
 
 
+def a_name(text):
+    """The type of an option that names a file or folder."""
+    if not text:
+        raise argparse.ArgumentTypeError('found ""; allowed is a name')
+    return text
+
+
 def missing(modules, programs):
     return ([module for module in modules if importlib.util.find_spec(module) is None]
             + [program for program in programs if shutil.which(program) is None])
@@ -32,6 +40,9 @@ def need(*modules, programs=(), group="view"):
     """Makes sure that Python modules and programs are available, and installs those that are missing."""
     if not missing(modules, programs):
         return
+    if {"-h", "--help"} & set(sys.argv[1:]):  # to read what a tool does, nothing need be installed
+        print(sys.modules["__main__"].__doc__)
+        sys.exit(0)
     subprocess.call([os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "install-dependencies"), group])
     importlib.invalidate_caches()
     left = missing(modules, programs)

@@ -51,18 +51,48 @@ class History:
             fail(f'{self.file}: no column "{name}"; {nearest(name, list(self.columns))}')
         return self.columns[name]
 
+    def largest(self, name):
+        """The largest magnitude in a column among those that are finite, or 0."""
+        return max((abs(value) for value in self.columns[name] if math.isfinite(value)), default=0.0)
+
+    def not_finite(self):
+        """The columns with a value that is none, such as nan, and the first increment that has one."""
+        rows = {name: next((row for row, value in enumerate(values) if not math.isfinite(value)), None)
+                for name, values in self.columns.items()}
+        found = {name: row for name, row in rows.items() if row is not None}
+        return [f"{name} is not finite from row {row + 1} of history.csv on" for name, row in found.items()]
+
     def is_nonzero(self, name):
         return any(value != 0.0 for value in self.columns.get(name, []))
 
     def nonzero(self, prefix):
         """The columns with this prefix, without those that are only rounding errors beside the largest."""
         names = [name for name in self.columns if name.startswith(prefix) and self.is_nonzero(name)]
-        largest = {name: max((abs(v) for v in self.columns[name] if math.isfinite(v)), default=0.0) for name in names}
+        largest = {name: self.largest(name) for name in names}
         return [name for name in names if largest[name] > 1e-5 * max(largest.values())]
+
+    def moved(self):
+        """The columns, without their prefix, of the groups and directions that the case moves; None if it is not known."""
+        parameters = {path: value for path, value, _ in parameters_of(os.path.dirname(self.file) or ".")}
+        section = "/Boundary Conditions/Displacements/"
+        names = {path[len(section):].rpartition("/")[0] for path in parameters if path.startswith(section)}
+        of = lambda name, what: parameters.get(f"{section}{name}/{what}", "0")
+        moves = lambda name: float(of(name, "Rate")) != 0.0 or float(of(name, "Constant")) != 0.0
+        return {f"{of(name, 'Group')}_{of(name, 'Component')}" for name in names if moves(name)} if parameters else None
+
+
+def has_increments(folder):
+    """Whether the history of a run has a whole row."""
+    try:
+        with open(os.path.join(folder, "history.csv"), encoding="utf-8") as stream:
+            return stream.readline().endswith("\n") and stream.readline().endswith("\n")
+    except OSError:
+        return False
 
 
 def curves_of(history, x=None, y=None):
-    """Pairs of columns (x, y) to draw."""
+    """Pairs of columns (x, y) to draw. A group that is not moved itself may share nodes with one that is: what it does
+    there is no force-displacement curve."""
     if y:
         for name in y:
             history[name]
@@ -71,7 +101,9 @@ def curves_of(history, x=None, y=None):
     if x:
         return [(x, name) for name in reactions or ["load_factor"]]
     displacements = {name: "displacement_" + name[len("reaction_"):] for name in reactions}
-    pairs = [(displacements[name], name) for name in reactions if history.is_nonzero(displacements[name])]
+    moved = history.moved()
+    pairs = [(displacements[name], name) for name in reactions if history.is_nonzero(displacements[name])
+             and (moved is None or name[len("reaction_"):] in moved)]
     return pairs or [("load_factor", name) for name in reactions or ["elastic_energy"]]
 
 
@@ -109,9 +141,9 @@ def events_of(history, reaction):
     if first is not None:
         found[first] = "first break"
     drops = [(forces[row - 1] - forces[row], row) for row in range(1, len(forces))]
-    n_drops, least = 3, 0.1 * max(forces)  # smaller drops are steps of steady growth
+    n_drops, least = 3, 0.1 * history.largest(reaction)  # smaller drops are steps of steady growth
     for fall, row in sorted(drops, reverse=True)[:n_drops]:
-        if fall > least:
+        if least < fall < math.inf:
             text = f"drop from {forces[row - 1]:.4g} to {forces[row]:.4g}"
             found[row] = f"{found[row]}, {text}" if row in found else text
     found.setdefault(len(forces) - 1, "last increment")
@@ -120,7 +152,7 @@ def events_of(history, reaction):
 
 def main_curve(history):
     """The pair of columns to show if there is room for one: the one with the largest reaction."""
-    return max(curves_of(history), key=lambda curve: max(magnitudes(history, curve[1])))
+    return max(curves_of(history), key=lambda curve: history.largest(curve[1]))
 
 
 # --- resolved.xml and run.log ---
@@ -159,18 +191,19 @@ class Log:
                 lines = stream.read().splitlines()
         except OSError:
             lines = []
-        table = next((n for n, line in enumerate(lines) if line.split()[:2] == ["step", "load"]), len(lines))
-        self.head = lines[:table]
+        start = next((n for n, line in enumerate(lines) if line.split()[:2] == ["phase", "seconds"]), len(lines))
+        # What ended the run stands between the last empty line and the profile.
+        last_empty = max((n for n in range(start) if not lines[n]), default=start)
+        self.head = lines[:next((n for n, line in enumerate(lines) if line.split()[:2] == ["step", "load"]), last_empty)]
         self.warnings = [line for line in lines if "warning" in line.lower()]
         ranks = re.search(r" on (\d+) ranks?$", "\n".join(self.head), re.MULTILINE)
         self.ranks = int(ranks.group(1)) if ranks else None
-        start = next((n for n, line in enumerate(lines) if line.split()[:2] == ["phase", "seconds"]), len(lines))
         self.profile = [row[:4] + [""] * (4 - len(row)) for row in map(str.split, lines[start + 1:]) if len(row) >= 3]
         self.is_over = bool(self.profile)
         summary = next((n for n, line in enumerate(lines) if line.startswith("broken bonds ")), None)
         self.summary = lines[summary:start] if summary is not None else []
         # A run that fails says why on the lines before its profile, and has no summary.
-        self.error = " ".join(lines[lines.index(""):start]).strip() if self.is_over and summary is None and "" in lines else ""
+        self.error = " ".join(lines[last_empty:start]).strip() if self.is_over and summary is None else ""
 
 
 # --- The Exodus series ---
@@ -396,7 +429,7 @@ def warp_factor(text, box, displacement):
         except ValueError:
             fail(f'--warp {text}: expected a factor, or "auto"')
     largest = max((float(abs(component).max()) for component in displacement), default=0.0)
-    if largest == 0.0:
+    if largest == 0.0 or not math.isfinite(largest):
         return 1.0
     factor = 0.05 * max(high - low for low, high in box) / largest
     power = 10.0 ** math.floor(math.log10(factor))
