@@ -10,6 +10,7 @@
 
 #include "perimorph/application/run.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
 #include "perimorph/cases/case.hpp"
 #include "perimorph/cases/reference.hpp"
 
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
   Tpetra::ScopeGuard mpi(&argc, &argv);
   const auto comm = Tpetra::getDefaultComm();
   const auto fail = [&](const char* kind, const std::exception& error, int status) {
-    if (comm->getRank() == 0) std::fprintf(stderr, "perimorph: %s%s\n", kind, error.what());
+    if (comm->getRank() == 0) std::fprintf(stderr, "perimorph: %s%s\n", kind, base::printable(error.what()).c_str());
     return status;
   };
   try {

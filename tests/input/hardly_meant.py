@@ -8,8 +8,10 @@ import subprocess
 import sys
 import unittest
 
+import netCDF4
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import CASE, MPIEXEC, PERIMORPH, Plate, changed, msh, settings
+from fixture import CASE, MPIEXEC, PERIMORPH, TOOLS, Plate, changed, msh, settings, text_of
 
 DISPLACEMENTS = "Boundary Conditions/Displacements"
 TIP = "Morphing/Seeds/tip"
@@ -155,6 +157,26 @@ class Numbers(Checked):
             self.assertNotRegex(run.stdout, r"(?i)\bnan\b|\binf\b", options)
 
 
+class SolverLists(Checked):
+    """Parameters that are handed on."""
+
+    def test_names_that_the_libraries_do_not_know(self):
+        self.assert_refused('/Solver/MueLu/aggregation: drop toll: MueLu knows no parameter of that name - did you mean "aggregation: drop tol"?',
+                            '/Solver/Belos/Verbosty: Belos knows no parameter of that name - did you mean "Verbosity"?',
+                            options=settings("Solver/MueLu/aggregation: drop toll=0.1", "Solver/Belos/Verbosty=1"))
+
+    def test_values_of_another_type(self):
+        self.assert_refused('/Solver/MueLu/max levels: found a value of type "double"; MueLu takes "int"',
+                            options=settings("Solver/MueLu/max levels=2.5"), ranks=[1])
+        self.assert_refused('/Solver/Belos/Use Single Reduction: found a value of type "string"; Belos takes "bool"',
+                            options=settings("Solver/Belos/Use Single Reduction=yes"), ranks=[1])
+
+    def test_names_that_they_know(self):
+        options = settings("Solver/MueLu/max levels=3", "Solver/MueLu/smoother: params/relaxation: sweeps=2", "Solver/MueLu/sa: damping factor=1.2",
+                           "Solver/MueLu/level 1/smoother: type=RELAXATION", "Solver/Belos/Verbosity=0", "Solver/Belos/Use Single Reduction=false")
+        self.assertEqual(self.check(*options).returncode, 0)
+
+
 class Parts(Checked):
     """Two bodies of 4 x 4 elements."""
 
@@ -275,6 +297,61 @@ class Plausibility(Checked):
         self.write_case({"Morphing/Seeds": {"where": {"Shape": "Automatic", "Inner Radius": 14.0, "Outer Radius": 20.0}}})
         self.assert_warned("/Morphing/Seeds: automatic seeds cover 100 % of the elements")
         self.assert_not_warned("automatic seeds cover", *settings("Morphing/Seeds/where/Inner Radius=4", "Morphing/Seeds/where/Outer Radius=8"))
+
+
+class Words(Checked):
+    """What a case or a mesh says reaches terminal and results as it is meant."""
+
+    def test_a_title_does_not_steer_the_terminal(self):
+        title = "\x1b]0;owned\x07\x1b[31mred\u009b1m"
+        for run in [self.check(*settings(f"Title={title}")), self.run_case("--no-progress", *settings(f"Title={title}"))]:
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("\\x1b]0;owned\\x07\\x1b[31mred\\u009b1m", run.stdout)
+            self.assertNotRegex(run.stdout, "[\x1b\x07\u009b]")
+        self.assertNotIn("\x1b", (self.output / "run.log").read_text())
+
+    def test_nor_do_names_in_a_mistake(self):
+        run = self.check(*settings("Output/Reactions={\x1b[31m}"))
+        self.assertEqual(run.returncode, 2)
+        self.assertNotIn("\x1b", run.stderr)
+
+    def test_groups_with_long_names_that_differ_at_the_end_only(self):
+        long = "g" * 180
+        (self.folder / "plate.msh").write_text(self.MESH.replace('"lower"', f'"{long}1"').replace('"upper"', f'"{long}2"'))
+        self.write_case({f"{DISPLACEMENTS}/pull down/Group": long + "1", f"{DISPLACEMENTS}/pull up/Group": long + "2"})
+        self.assertEqual(self.run_case("--quiet").returncode, 0)
+        with netCDF4.Dataset(self.series()[0]) as file:
+            self.assertTrue({long + "1", long + "2"} <= set(text_of(file["ns_names"])))
+            self.assertTrue({f"reaction_{long}{k}_y" for k in "12"} <= set(text_of(file["name_glo_var"])))
+
+    def test_a_group_of_the_mesh_called_as_the_surface_of_cracks(self):
+        (self.folder / "plate.msh").write_text(self.MESH.replace('"right"', '"broken_surface"'))
+        self.write_case({f"{DISPLACEMENTS}/hold {c}/Group": "broken_surface" for c in "xy"})
+        self.assert_warned('/Mesh/File: the sides of the mesh\'s group "broken_surface" are called "broken_surface_of_mesh" in results')
+        with netCDF4.Dataset(self.series()[0]) as file:
+            sizes = {name: len(file.dimensions[f"num_side_ss{k}"]) if f"num_side_ss{k}" in file.dimensions else 0
+                     for k, name in enumerate(text_of(file["ss_names"]), 1)}
+        self.assertEqual(sizes, {"broken_surface": 0, "broken_surface_of_mesh": 12})
+
+    def test_the_summary_leaves_out_reactions_that_are_rounding(self):
+        self.write_case({DISPLACEMENTS: held("right", "x") | held("lower", "y") | moved("upper", "y", 0.2)})
+        run = self.run_case("--no-progress", *settings("Loading/Increments=1"))
+        told = [line.split()[1] for line in run.stdout.splitlines() if line.startswith("reaction ")]
+        self.assertEqual(told, ["lower_y", "upper_y"] if "right_x" not in told else told)
+        peaks = [abs(float(line.split()[3])) for line in run.stdout.splitlines() if line.startswith("reaction ")]
+        self.assertGreater(min(peaks), 1e-5 * max(peaks))
+
+    def test_more_ranks_than_elements_write_spread_files(self):
+        (self.folder / "plate.msh").write_text(Grids().add(0, 0, 3, 1).text())
+        self.write_case({"Pre-Cracks": None, "Morphing/Seeds": {"all": {"Shape": "Everything"}},
+                         DISPLACEMENTS: held("left", "x", "y") | moved("right", "x", 0.001), "Output/Spread Files": True})
+        run = self.run_case("--quiet", ranks=4)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(len(self.series()), 4)
+        joined = subprocess.run([TOOLS / "join", self.output], capture_output=True, text=True, timeout=60)
+        self.assertEqual(joined.returncode, 0, joined.stderr)
+        with netCDF4.Dataset(self.output / "plate.e") as file:
+            self.assertEqual(len(file.dimensions["num_elem"]), 3)
 
 
 if __name__ == "__main__":

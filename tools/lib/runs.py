@@ -263,6 +263,8 @@ class ExodusFile:
             except OSError as error:
                 fail(f"{file}: not readable as an Exodus file: {error}")
             self.parts[-1].set_auto_mask(False)
+        # Of a rank without elements there is nothing to see.
+        self.parts = [part for part in self.parts if "num_nodes" in part.dimensions and len(part.dimensions["num_nodes"])]
         self.data = self.parts[0]  # for what is the same in all
         times = [part["time_whole"][:] if "time_whole" in part.variables else [] for part in self.parts]
         self.times = [float(time) for time in min(times, key=len)]  # one rank may be ahead of another

@@ -6,7 +6,9 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/cases/advice.hpp"
 #include "perimorph/fracture/first_break.hpp"
+#include "perimorph/input/mistakes.hpp"
 #include "perimorph/output/reactions.hpp"
+#include "perimorph/solvers/parameter_names.hpp"
 
 namespace perimorph::application {
 
@@ -36,6 +38,14 @@ void warn(const base::Log& log, const cases::Case& input, const std::vector<std:
 void advise(const base::Log& log, const cases::Case& input, const std::vector<std::string>& lines,
             spdlog::level::level_enum level) {
   for (const auto& line : lines) log->log(level, "advice: {}: {}", input.file, line);
+}
+
+void check_solver_parameters(const cases::Case& input) {
+  input::Mistakes mistakes(input.file);
+  for (const auto& [path, what] : solvers::unknown_parameters(input.numerical.solver)) {
+    mistakes.add(input::line_of(input.lines, "/Solver/" + path), "/Solver/" + path, what);
+  }
+  mistakes.report();
 }
 
 template <int dim>

@@ -16,6 +16,9 @@ void warn(const base::Log& log, const cases::Case& input, const std::vector<std:
 void advise(const base::Log& log, const cases::Case& input, const std::vector<std::string>& lines,
             spdlog::level::level_enum level);
 
+/// Belos and MueLu know the parameters that are for them. Local. @throws UserError
+void check_solver_parameters(const cases::Case& input);
+
 /// Automatic seeds are to find places in a body, not all of it. Collective.
 template <int dim>
 void warn_of_seeds_everywhere(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const cases::Case& input,

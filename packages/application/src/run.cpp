@@ -16,6 +16,7 @@
 #include "perimorph/input/resolved.hpp"
 #include "perimorph/mesh/mesh_report.hpp"
 #include "perimorph/model/calibration.hpp"
+#include "perimorph/output/field_series.hpp"
 #include "perimorph/output/partition_costs.hpp"
 #include "perimorph/output/run_observer.hpp"
 
@@ -71,6 +72,20 @@ void describe(const base::Comm& comm, const cases::Case& input, const Problem<di
             mesh.n_global_nodes, comm.getSize(), comm.getSize() == 1 ? "" : "s");
   log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
             problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
+}
+
+/// Of the whole mesh, on rank 0.
+template <int dim>
+void warn_of_names(const mesh::Mesh<dim>& whole, const cases::Case& input, const base::Log& log) {
+  for (const auto& entry : whole.side_sets) {
+    const std::string name = output::name_in_results(entry.first);
+    if (name == entry.first) continue;
+    warn(log, input,
+         {fmt::format(
+             "/Mesh/File: the sides of the mesh's group \"{}\" are called \"{}\" in results, where the first is the "
+             "surface of cracks",
+             entry.first, name)});
+  }
 }
 
 /// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds;
@@ -146,6 +161,7 @@ class Run {
     const auto timer = profile_.measure(base::Phase::read);
     auto checked = cases::read_whole_mesh<dim>(*comm_, input_, folder_);
     warn(console_.log, input_, checked.warnings);
+    warn_of_names(checked.whole, input_, console_.log);
     checkpoints_.identify(checked.whole);
     return std::move(checked.whole);
   }
@@ -200,6 +216,7 @@ class Run {
 template <int dim>
 void run_in(const Comm& comm, const cases::Case& input, const std::string& folder, Verbosity verbosity, Start start) {
   base::Profile profile;
+  check_solver_parameters(input);
   make_folder(*comm, input, folder);
   base::Log log;
   base::on_all_ranks(*comm, [&] {
@@ -272,6 +289,7 @@ void describe_sizes(const base::Comm& comm, const fracture::Body<dim>& body, spd
 template <int dim>
 void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
   base::Profile profile;
+  check_solver_parameters(input);
   const base::TemporaryFolder folder;
   const auto log = base::make_log(*comm, verbosity == Verbosity::quiet);
   auto problem = cases::make_problem<dim>(input);
@@ -282,6 +300,7 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
   describe(*comm, input, problem, mesh, log);
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
   warn(log, input, warnings);
+  warn_of_names(whole, input, log);
 
   advise(log, input, place_and_calibrate(comm, mesh, input, problem, profile, log), spdlog::level::warn);
   fracture::Body<dim> body(comm, mesh, problem, input.numerical, profile);

@@ -5,8 +5,23 @@
 #include <spdlog/sinks/stdout_sinks.h>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
 
 namespace perimorph::base {
+
+namespace {
+
+/// The message alone, a line each. What a case or a mesh says in it must not steer the terminal.
+class Printable : public spdlog::formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+    const std::string text = printable(std::string(message.payload.data(), message.payload.size())) + '\n';
+    line.append(text.data(), text.data() + text.size());
+  }
+  std::unique_ptr<spdlog::formatter> clone() const override { return std::make_unique<Printable>(); }
+};
+
+}  // namespace
 
 Log silent_log() {
   return std::make_shared<spdlog::logger>("perimorph", std::make_shared<spdlog::sinks::null_sink_st>());
@@ -25,7 +40,7 @@ Log make_log(const Comm& comm, bool quiet, const std::string& file, bool append)
     }
   }
   auto log = std::make_shared<spdlog::logger>("perimorph", sinks.begin(), sinks.end());
-  log->set_pattern("%v");
+  log->set_formatter(std::make_unique<Printable>());
   log->flush_on(spdlog::level::info);
   return log;
 }

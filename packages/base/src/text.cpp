@@ -51,4 +51,21 @@ bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x
 
 bool has_control_characters(const std::string& text) { return std::any_of(text.begin(), text.end(), is_control); }
 
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {  // the upper control characters in UTF-8
+      shown += fmt::format("\\u{:04x}", next);
+      ++i;
+    } else if (is_control(text[i]) && text[i] != '\n' && text[i] != '\t') {
+      shown += fmt::format("\\x{:02x}", byte);
+    } else {
+      shown += text[i];
+    }
+  }
+  return shown;
+}
+
 }  // namespace perimorph::base

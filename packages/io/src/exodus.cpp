@@ -17,7 +17,7 @@ namespace perimorph::io {
 
 namespace {
 
-constexpr int max_name_length = 64;
+constexpr std::size_t usual_name_length = 64;
 
 std::string name_in_series(const std::string& first, int number) {
   return number == 1 ? first : fmt::format("{}-s{:04d}", first, number);
@@ -108,12 +108,27 @@ std::vector<int> sizes_of(const ExodusModel<dim>& model) {
   std::vector<int> sizes;
   for (const auto& block : model.blocks) {
     const std::size_t n = block.element_ids.size();
-    PERIMORPH_ASSERT(n > 0 || !model.node_ids.empty(), "block {} is empty", block.name);
+    const bool is_part = !model.node_ids.empty() || model.coordinates.empty();  // perhaps of a rank without elements
+    PERIMORPH_ASSERT(n > 0 || is_part, "block {} is empty", block.name);
     PERIMORPH_ASSERT(block.connectivity.size() == n * mesh::n_corners(block.type),
                      "block {} has {} elements but {} corners", block.name, n, block.connectivity.size());
     sizes.push_back(static_cast<int>(n));
   }
   return sizes;
+}
+
+/// Exodus would cut longer names, of which two may then be one.
+template <int dim>
+std::size_t longest_name(const ExodusModel<dim>& model, const typename ExodusSeries<dim>::Names& names) {
+  std::size_t longest = usual_name_length;
+  const auto include = [&](const std::string& name) { longest = std::max(longest, name.size()); };
+  for (const auto& block : model.blocks) include(block.name);
+  for (const auto& set : model.node_sets) include(set.first);
+  for (const auto& set : model.side_sets) include(set.first);
+  for (const auto* variables : {&names.globals, &names.nodal, &names.element}) {
+    for (const auto& name : *variables) include(name);
+  }
+  return longest;
 }
 
 template <int dim>
@@ -332,20 +347,23 @@ void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   int our_word_size = sizeof(double), file_word_size = sizeof(double);
   exodus_id_ = ex_create(current_file().c_str(), EX_CLOBBER | EX_LARGE_MODEL, &our_word_size, &file_word_size);
   check(exodus_id_, "file");
-  check(ex_set_max_name_length(exodus_id_, max_name_length), "header");
+  check(ex_set_max_name_length(exodus_id_, static_cast<int>(longest_name(model, names_))), "header");
 
   // All definitions first: a definition after data would move the data.
   const File file{exodus_id_, current_file()};
   define_sizes(file, model, title_, std::accumulate(block_sizes_.begin(), block_sizes_.end(), 0));
   define_blocks_and_sets(file, model);
-  const int n_element_variables = static_cast<int>(names_.element.size());
+  const bool is_empty = model.coordinates.empty();  // a rank without elements has no variables on nodes and elements
+  const auto nodal = is_empty ? std::vector<std::string>() : names_.nodal;
+  const auto element = is_empty ? std::vector<std::string>() : names_.element;
+  const int n_element_variables = static_cast<int>(element.size());
   std::vector<int> everywhere(block_sizes_.size() * n_element_variables, 1);
-  check(ex_put_all_var_param(exodus_id_, static_cast<int>(names_.globals.size()), static_cast<int>(names_.nodal.size()),
+  check(ex_put_all_var_param(exodus_id_, static_cast<int>(names_.globals.size()), static_cast<int>(nodal.size()),
                              n_element_variables, everywhere.data(), 0, nullptr, 0, nullptr),
         "variables");
   define_variables(file, EX_GLOBAL, names_.globals);
-  define_variables(file, EX_NODAL, names_.nodal);
-  define_variables(file, EX_ELEM_BLOCK, names_.element);
+  define_variables(file, EX_NODAL, nodal);
+  define_variables(file, EX_ELEM_BLOCK, element);
   put_records(file, information_);  // after these, as what follows a line in it is what the file held there
 
   put_ids(file, EX_ELEM_MAP, element_ids(model));
@@ -377,7 +395,7 @@ void ExodusSeries<dim>::write(const ExodusStep& step) {
     const auto n = static_cast<int64_t>(step.globals.size());
     check(ex_put_var(exodus_id_, n_steps_, EX_GLOBAL, 1, 0, n, step.globals.data()), "global variables");
   }
-  for (std::size_t v = 0; v < step.nodal.size(); ++v) {
+  for (std::size_t v = 0; v < step.nodal.size() && n_nodes > 0; ++v) {
     const int variable = static_cast<int>(v) + 1;
     check(ex_put_var(exodus_id_, n_steps_, EX_NODAL, variable, 1, static_cast<int64_t>(n_nodes), step.nodal[v].data()),
           "nodal variables");

@@ -90,8 +90,11 @@ void Console::summarize(const base::Comm& comm, const discretization::Counts& co
   const double memory = base::peak_memory();
   options_.log->info("memory           {:.0f} MB in all, {:.0f} MB on the rank with most",
                      base::sum(comm, memory) / 1e6, base::max(comm, memory) / 1e6);
+  constexpr double negligible = 1e-5;  // of the largest: rounding, and what the solver tolerates
+  double largest = 0.;
+  for (const auto& r : reactions) largest = std::max(largest, std::abs(r.peak));
   for (const auto& r : reactions) {
-    if (std::abs(r.peak) > 0.) {
+    if (std::abs(r.peak) > negligible * largest) {
       options_.log->info("reaction {:<24} peak {:>12.6g} in step {}, last {:>12.6g}", r.column, r.peak,
                          r.peak_increment, r.force);
     }

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "own_nodes.hpp"
+#include "perimorph/output/field_series.hpp"
 
 namespace perimorph::output {
 
@@ -118,7 +119,8 @@ void sort_sides(std::vector<mesh::Side>& sides) {
 /// The mesh's, and the surface of its cracks.
 template <int dim>
 SideSets side_sets(const mesh::Mesh<dim>& mesh, const std::vector<mesh::Side>& broken_surface) {
-  SideSets sets(mesh.side_sets.begin(), mesh.side_sets.end());
+  SideSets sets;
+  for (const auto& [name, sides] : mesh.side_sets) sets[name_in_results(name)] = sides;
   sets[broken_surface_name] = broken_surface;
   return sets;
 }
@@ -209,6 +211,10 @@ void take_own_groups(const Body<dim>& body, const SideSets& side_sets, const std
 }
 
 }  // namespace
+
+std::string name_in_results(const std::string& side_set) {
+  return side_set == broken_surface_name ? side_set + "_of_mesh" : side_set;
+}
 
 template <int dim>
 int kind_of(const Body<dim>& body, int element) {

@@ -23,6 +23,15 @@ TEST(DidYouMean, AllowsAThirdOfALongNameToBeWrong) {
   EXPECT_EQ(did_you_mean("abcdefghi", {"abcdewxyz"}), "");
 }
 
+TEST(Printable, ShowsWhatWouldSteerATerminal) {
+  EXPECT_EQ(printable("a\tb\nc \xc3\xa4 \xe2\x82\xac"), "a\tb\nc \xc3\xa4 \xe2\x82\xac");  // ae, euro
+  EXPECT_EQ(printable("\x1b[31mred\x07\r\x7f"), "\\x1b[31mred\\x07\\x0d\\x7f");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "\\u009b31m");
+  EXPECT_EQ(printable("\xc2"), "\xc2");
+}
+
 TEST(QuotedList, QuotesEachAndPutsTheSeparatorBetween) {
   EXPECT_EQ(quoted_list({"a", "b c"}), "\"a\", \"b c\"");
   EXPECT_EQ(quoted_list({"a", "b"}, " or "), "\"a\" or \"b\"");

@@ -213,6 +213,21 @@ TEST(ExodusSeries, AThreeDimensionalModelReadsBack) {
   EXPECT_THAT(file.values(1, EX_ELEM_BLOCK, 1, 2, 1), ElementsAre(0.75));
 }
 
+TEST(ExodusSeries, NamesThatDifferAtTheirEndOnlyAreKeptApart) {
+  const tests::TemporaryDirectory directory;
+  const std::string first = directory.file("case.e"), name(200, 'n');
+  ExodusModel<2> model = model_of({2, 3, 0});
+  model.blocks[0].name = name + "_PD";
+  model.node_sets[name + "1"] = {0};
+  model.node_sets[name + "2"] = {1};
+  ExodusSeries<2>(first, "", {{"reaction_" + name + "_x", "reaction_" + name + "_y"}, {}, {}}, {}).start(model);
+
+  const tests::ExodusFile file(first);
+  EXPECT_THAT(file.names(EX_ELEM_BLOCK), ElementsAre(name + "_PD"));
+  EXPECT_THAT(file.names(EX_NODE_SET), testing::IsSupersetOf({name + "1", name + "2"}));
+  EXPECT_THAT(file.variables(EX_GLOBAL), ElementsAre("reaction_" + name + "_x", "reaction_" + name + "_y"));
+}
+
 TEST(ExodusSeries, LongNamesAreKeptUpToTheirLimit) {
   const tests::TemporaryDirectory directory;
   const std::string first = directory.file("case.e"), name(64, 'n');

@@ -17,7 +17,7 @@ class ExodusFile {
     float version = 0.;
     id_ = ex_open(file.c_str(), EX_READ, &our_word_size, &file_word_size, &version);
     EXPECT_GE(id_, 0) << file;
-    ex_set_max_name_length(id_, 64);
+    ex_set_max_name_length(id_, longest_name);
     EXPECT_EQ(ex_get_init_ext(id_, &sizes), 0);
   }
   ~ExodusFile() { ex_close(id_); }
@@ -119,6 +119,8 @@ class ExodusFile {
   ex_init_params sizes{};
 
  private:
+  static constexpr int longest_name = 255;
+
   int64_t count(ex_entity_type kind) const {
     if (kind == EX_ELEM_BLOCK) return sizes.num_elem_blk;
     return kind == EX_NODE_SET ? sizes.num_node_sets : sizes.num_side_sets;
@@ -126,7 +128,7 @@ class ExodusFile {
 
   template <class Get>
   std::vector<std::string> read_names(int64_t n, ex_entity_type kind, Get get) const {
-    std::vector<std::string> buffers(n, std::string(MAX_LINE_LENGTH + 1, '\0'));
+    std::vector<std::string> buffers(n, std::string(longest_name + 1, '\0'));
     std::vector<char*> raw;
     for (auto& buffer : buffers) raw.push_back(buffer.data());
     EXPECT_EQ(get(id_, kind, raw.data()), 0);

@@ -9,7 +9,7 @@ radius = 12;
 half = 2;         // of the width on which the plates press
 half_crack = 4;
 dx = 1;           // of the elements; the horizon in @NAME@.xml is four times this
-size = 1.1 * dx;  // recombined quadrilaterals come out smaller than asked for
+size = dx;
 
 y = Sqrt(radius^2 - half^2);
 Point(1) = {-half, -y, 0, size};
@@ -36,7 +36,7 @@ Line{7} In Surface{1};
 
 Recombine Surface{1};
 Mesh.Algorithm = 6;
-Mesh.RecombinationAlgorithm = 3;
+Mesh.RecombinationAlgorithm = 1;  // 3 would halve edges along the crack and move their middles off it
 
 // Groups: the names that @NAME@.xml refers to. One surface is the body; curves and points are held and loaded.
 Physical Surface("disk") = {1};

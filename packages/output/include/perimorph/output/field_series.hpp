@@ -8,6 +8,10 @@
 
 namespace perimorph::output {
 
+/// What a side set of the mesh is called in the series: one may have the name of the surface of cracks, such as in a
+/// mesh that is a result. Local.
+std::string name_in_results(const std::string& side_set);
+
 /// What a series of Exodus files is called and says about itself.
 struct SeriesOptions {
   std::string file;  ///< the first one, ".../case.e"
