@@ -171,6 +171,15 @@ class SolverLists(Checked):
         self.assert_refused('/Solver/Belos/Use Single Reduction: found a value of type "string"; Belos takes "bool"',
                             options=settings("Solver/Belos/Use Single Reduction=yes"), ranks=[1])
 
+    def test_values_on_which_they_crash_or_wait(self):
+        self.assert_refused("/Solver/MueLu/xml parameter file: found a file; allowed are the parameters themselves",
+                            options=settings("Solver/MueLu/xml parameter file=/etc/hostname"))
+        for parameter in ["MueLu/max levels", "Belos/Block Size"]:
+            for value in [0, -1]:
+                self.assert_refused(f"/Solver/{parameter}: found {value}; allowed is 1 or more",
+                                    options=settings(f"Solver/{parameter}={value}"), ranks=[1])
+        self.assert_refused('/Solver/MueLu/aggregation: type: found "brick"', options=settings("Solver/MueLu/aggregation: type=brick"))
+
     def test_names_that_they_know(self):
         options = settings("Solver/MueLu/max levels=3", "Solver/MueLu/smoother: params/relaxation: sweeps=2", "Solver/MueLu/sa: damping factor=1.2",
                            "Solver/MueLu/level 1/smoother: type=RELAXATION", "Solver/Belos/Verbosity=0", "Solver/Belos/Use Single Reduction=false")

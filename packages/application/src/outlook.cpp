@@ -8,7 +8,7 @@
 #include "perimorph/fracture/first_break.hpp"
 #include "perimorph/input/mistakes.hpp"
 #include "perimorph/output/reactions.hpp"
-#include "perimorph/solvers/parameter_names.hpp"
+#include "perimorph/solvers/parameter_checks.hpp"
 
 namespace perimorph::application {
 
@@ -42,7 +42,7 @@ void advise(const base::Log& log, const cases::Case& input, const std::vector<st
 
 void check_solver_parameters(const cases::Case& input) {
   input::Mistakes mistakes(input.file);
-  for (const auto& [path, what] : solvers::unknown_parameters(input.numerical.solver)) {
+  for (const auto& [path, what] : solvers::refused_parameters(input.numerical.solver)) {
     mistakes.add(input::line_of(input.lines, "/Solver/" + path), "/Solver/" + path, what);
   }
   mistakes.report();

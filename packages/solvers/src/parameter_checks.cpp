@@ -1,4 +1,4 @@
-#include "perimorph/solvers/parameter_names.hpp"
+#include "perimorph/solvers/parameter_checks.hpp"
 
 #include <BelosBlockCGSolMgr.hpp>
 #include <BelosTpetraAdapter.hpp>
@@ -14,6 +14,18 @@ namespace {
 
 using Teuchos::ParameterList;
 
+/// Values that the libraries take, and then crash on or wait for other ranks.
+std::string harm_in(const std::string& name, const Teuchos::ParameterEntry& entry) {
+  if (name == "xml parameter file") return "found a file; allowed are the parameters themselves, in the case";
+  if ((name == "max levels" || name == "Block Size") && Teuchos::getValue<int>(entry) < 1) {
+    return fmt::format("found {}; allowed is 1 or more", Teuchos::getValue<int>(entry));
+  }
+  if (name == "aggregation: type" && Teuchos::getValue<std::string>(entry) == "brick") {
+    return "found \"brick\", which is for grids of regular shape only; \"uncoupled\" is usual";
+  }
+  return "";
+}
+
 /// What is wrong with an entry, or "".
 std::string mistake_in(const std::string& name, const Teuchos::ParameterEntry& entry, const ParameterList& known,
                        const char* library) {
@@ -25,32 +37,32 @@ std::string mistake_in(const std::string& name, const Teuchos::ParameterEntry& e
   const auto& wanted = known.getEntry(name);
   const bool fits = entry.isList() == wanted.isList() &&
                     (entry.isList() || entry.getAny(false).type() == wanted.getAny(false).type());
-  if (fits) return "";
+  if (fits) return harm_in(name, entry);
   return fmt::format("found a value of type \"{}\"; {} takes \"{}\"", entry.getAny(false).typeName(), library,
                      wanted.getAny(false).typeName());
 }
 
 void add(const ParameterList& given, const ParameterList& known, const char* library,
-         std::vector<UnknownParameter>& unknown) {
+         std::vector<RefusedParameter>& refused) {
   static const std::regex free("level \\d+|Factories|Hierarchy|Matrix");  // MueLu's lists for experts
   for (const auto& item : given) {
     const std::string& name = item.first;
     const Teuchos::ParameterEntry& entry = item.second;
     if (entry.isList() && std::regex_match(name, free)) continue;
     if (auto what = mistake_in(name, entry, known, library); !what.empty()) {
-      unknown.push_back(UnknownParameter{fmt::format("{}/{}", library, name), std::move(what)});
+      refused.push_back(RefusedParameter{fmt::format("{}/{}", library, name), std::move(what)});
     }
   }
 }
 
 }  // namespace
 
-std::vector<UnknownParameter> unknown_parameters(const SolverParameters& parameters) {
-  std::vector<UnknownParameter> unknown;
+std::vector<RefusedParameter> refused_parameters(const SolverParameters& parameters) {
+  std::vector<RefusedParameter> refused;
   const Belos::BlockCGSolMgr<double, MultiVector, Operator> conjugate_gradients;
-  add(parameters.belos, *conjugate_gradients.getValidParameters(), "Belos", unknown);
-  add(parameters.muelu, *MueLu::MasterList::List(), "MueLu", unknown);
-  return unknown;
+  add(parameters.belos, *conjugate_gradients.getValidParameters(), "Belos", refused);
+  add(parameters.muelu, *MueLu::MasterList::List(), "MueLu", refused);
+  return refused;
 }
 
 }  // namespace perimorph::solvers
