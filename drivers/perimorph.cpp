@@ -1,14 +1,19 @@
 // perimorph run | check | params: the command line. The adaptive loop is in packages/fracture/src/adaptive_loop.cpp.
 
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <new>
 
 #include "perimorph/application/run.hpp"
+#include "perimorph/base/consensus.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
 #include "perimorph/cases/case.hpp"
@@ -22,6 +27,7 @@ struct Arguments {
   std::string case_file, output;
   std::vector<std::string> overrides;
   bool quiet = false, no_progress = false, restart = false;
+  bool markdown = false, relax_ng = false;
 
   application::Verbosity verbosity() const {
     if (quiet) return application::Verbosity::quiet;
@@ -53,9 +59,51 @@ void add_case_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--quiet", arguments.quiet, "Print warnings and errors only");
 }
 
+std::string description_of_parameters(const Arguments& arguments) {
+  if (arguments.markdown) return cases::describe_schema_in_markdown();
+  return arguments.relax_ng ? cases::describe_schema_in_relax_ng() : cases::describe_schema();
+}
+
+/// What the command line asks for. Collective.
+void carry_out(const Teuchos::RCP<const base::Comm>& comm, const std::string& command, const Arguments& arguments) {
+  if (command == "params") {
+    if (comm->getRank() == 0) std::fputs(description_of_parameters(arguments).c_str(), stdout);
+    return;
+  }
+  const cases::Case input = read_case(*comm, arguments);
+  if (command == "check") return application::check(comm, input, arguments.verbosity());
+  application::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output,
+                   arguments.verbosity(), arguments.start());
+}
+
+/// Nothing can throw out of a destructor, and yet memory may end there: the job ends with a word.
+[[noreturn]] void end_the_job() {
+  int status = 1;
+  const char* reason = "a call that must not fail has failed";
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    status = 3;
+    reason = "there is no memory left";
+  } catch (...) {
+  }
+  std::fprintf(stderr, "perimorph: %s: all ranks are ended\n", reason);
+  int can_tell_others = 0;
+  MPI_Initialized(&can_tell_others);
+  if (can_tell_others != 0) MPI_Abort(MPI_COMM_WORLD, status);
+  std::_Exit(status);
+}
+
+/// A rank does not outlive the mpirun that has started it.
+void end_with_launcher() {
+  if (std::getenv("OMPI_COMM_WORLD_RANK") != nullptr) prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::set_terminate(end_the_job);
+  end_with_launcher();
   CLI::App app("Perimorph: where cracks start and where they run in brittle bodies");
   app.require_subcommand(1);
   Arguments arguments;
@@ -66,10 +114,9 @@ int main(int argc, char** argv) {
   run->add_flag("--restart", arguments.restart, "Go on after the newest checkpoint in the folder for the results");
   auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what it would cost");
   add_case_options(*check, arguments);
-  bool markdown = false, relax_ng = false;
   auto* params = app.add_subcommand("params", "Print every parameter with default, range, unit and meaning");
-  auto* as_page = params->add_flag("--markdown", markdown, "As a Markdown page");
-  params->add_flag("--relax-ng", relax_ng, "As a RELAX NG schema, for editors")->excludes(as_page);
+  auto* as_page = params->add_flag("--markdown", arguments.markdown, "As a Markdown page");
+  params->add_flag("--relax-ng", arguments.relax_ng, "As a RELAX NG schema, for editors")->excludes(as_page);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -84,20 +131,8 @@ int main(int argc, char** argv) {
     return status;
   };
   try {
-    if (app.got_subcommand(params)) {
-      const auto text = markdown   ? cases::describe_schema_in_markdown()
-                        : relax_ng ? cases::describe_schema_in_relax_ng()
-                                   : cases::describe_schema();
-      if (comm->getRank() == 0) std::fputs(text.c_str(), stdout);
-      return 0;
-    }
-    const cases::Case input = read_case(*comm, arguments);
-    if (app.got_subcommand(check)) {
-      application::check(comm, input, arguments.verbosity());
-    } else {
-      application::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output,
-                       arguments.verbosity(), arguments.start());
-    }
+    const base::Consensus consensus(*comm);
+    consensus.run([&] { carry_out(comm, app.get_subcommands().front()->get_name(), arguments); });
     return 0;
   } catch (const base::UserError& error) {
     return fail("", error, 2);

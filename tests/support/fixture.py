@@ -120,12 +120,12 @@ class Plate(InFolder):
     def write_case(self, changes={}):
         case_file.write_case(self.case, changed(self.CASE, changes))
 
-    def perimorph(self, *arguments, ranks=1):
+    def perimorph(self, *arguments, ranks=1, timeout=250, env=None):
         command = [MPIEXEC, "-n", str(ranks), PERIMORPH, *map(str, arguments)]
-        return subprocess.run(command, capture_output=True, text=True, timeout=250)
+        return subprocess.run(command, capture_output=True, text=True, timeout=timeout, env=env)
 
-    def run_case(self, *options, ranks=1):
-        return self.perimorph("run", self.case, "--output", self.output, *options, ranks=ranks)
+    def run_case(self, *options, **how):
+        return self.perimorph("run", self.case, "--output", self.output, *options, **how)
 
     def history(self):
         with open(self.output / "history.csv", newline="") as file:

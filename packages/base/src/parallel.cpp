@@ -3,19 +3,12 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_DefaultMpiComm.hpp>
 
+#include "failure.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::base {
 
 namespace {
-
-enum class Failure : int { none, user, computation, bug };
-
-[[noreturn]] void raise(Failure failure, const std::string& message) {
-  if (failure == Failure::user) throw UserError(message);
-  if (failure == Failure::computation) throw ComputationError(message);
-  throw Bug(message);
-}
 
 std::string broadcast_from(const Comm& comm, int root, std::string text) {
   PERIMORPH_ASSERT(root >= 0 && root < comm.getSize(), "rank {} of {}", root, comm.getSize());
@@ -42,26 +35,12 @@ MPI_Comm mpi_communicator(const Comm& comm) {
 }
 
 void on_all_ranks(const Comm& comm, const std::function<void()>& local_work) {
-  Failure failure = Failure::none;
-  std::string message;
-  try {
-    local_work();
-  } catch (const UserError& error) {
-    failure = Failure::user;
-    message = error.what();
-  } catch (const ComputationError& error) {
-    failure = Failure::computation;
-    message = error.what();
-  } catch (const std::exception& error) {
-    failure = Failure::bug;
-    message = error.what();
-  }
-  const int first_failed =
-      reduce(comm, Teuchos::REDUCE_MIN, failure == Failure::none ? comm.getSize() : comm.getRank());
+  const Failure failure = failure_of(local_work);
+  const int first_failed = reduce(comm, Teuchos::REDUCE_MIN, failure.has_happened() ? comm.getRank() : comm.getSize());
   if (first_failed == comm.getSize()) return;
-  int kind = static_cast<int>(failure);
+  int kind = static_cast<int>(failure.kind);
   Teuchos::broadcast(comm, first_failed, &kind);
-  raise(static_cast<Failure>(kind), broadcast_from(comm, first_failed, message));
+  raise({static_cast<Failure::Kind>(kind), broadcast_from(comm, first_failed, failure.message)});
 }
 
 double sum(const Comm& comm, double value) { return reduce(comm, Teuchos::REDUCE_SUM, value); }

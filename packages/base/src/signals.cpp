@@ -20,6 +20,12 @@ void note_stop(int signal) {
 
 void note_checkpoint(int) { checkpoint_asked = 1; }
 
+const char* name_of(int signal) {
+  if (signal == SIGINT) return "SIGINT";
+  if (signal == SIGHUP) return "SIGHUP";
+  return signal == 0 ? "" : "SIGTERM";
+}
+
 }  // namespace
 
 Signals::Signals() {
@@ -28,6 +34,8 @@ Signals::Signals() {
   stop_signal = checkpoint_asked = 0;
   old_terminate_ = std::signal(SIGTERM, note_stop);
   old_interrupt_ = std::signal(SIGINT, note_stop);
+  old_hang_up_ = std::signal(SIGHUP, note_stop);
+  if (old_hang_up_ == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
   old_user_ = std::signal(SIGUSR1, note_checkpoint);
 }
 
@@ -35,6 +43,7 @@ Signals::~Signals() {
   is_noting = false;
   std::signal(SIGTERM, old_terminate_);
   std::signal(SIGINT, old_interrupt_);
+  std::signal(SIGHUP, old_hang_up_);
   std::signal(SIGUSR1, old_user_);
 }
 
@@ -43,7 +52,7 @@ Signals::Requests Signals::look(const Comm& comm) {
   checkpoint_asked = 0;
   const GlobalId stop = max(comm, static_cast<GlobalId>(stop_signal));
   const GlobalId asked = max(comm, static_cast<GlobalId>(is_asked));
-  return {stop == 0 ? "" : stop == SIGINT ? "SIGINT" : "SIGTERM", asked > 0};
+  return {name_of(static_cast<int>(stop)), asked > 0};
 }
 
 }  // namespace perimorph::base

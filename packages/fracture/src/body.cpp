@@ -44,7 +44,7 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       topology_(comm, mesh, topology_options(problem, options)),
       dirichlet_(*comm, mesh, problem.displacements),
       system_(*comm, topology_, dirichlet_, problem.loads, problem.e0, system_options(options), profile),
-      equilibrium_(options.solver, profile) {
+      equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
                    options.tolerance, options.damage_tolerance);
 }
@@ -102,9 +102,9 @@ template <int dim>
 void Body<dim>::assemble() {
   const auto timer = profile_.measure(Phase::assemble);
   auto source = system_.assemble();
-  equilibrium_.linear_solver().set_operator(system_.tangent(), source.matrix,
-                                            solvers::rigid_body_modes<dim>(*source.matrix, source.coordinates),
-                                            source.basis, std::move(source.from_old));
+  equilibrium_.linear_solver().set_operator(
+      system_.tangent(), source.matrix, solvers::rigid_body_modes<dim>(*source.matrix, source.coordinates),
+      source.basis, std::move(source.from_old), [this] { return system_.whole_matrix(); });
   topology_.drop_old_dofs();
 }
 

@@ -86,6 +86,14 @@ typename CoupledSystem<dim>::PreconditionerSource CoupledSystem<dim>::assemble()
 }
 
 template <int dim>
+Teuchos::RCP<Tpetra::CrsMatrix<double>> CoupledSystem<dim>::whole_matrix() const {
+  PERIMORPH_ASSERT(space_ != nullptr, "the matrix of {} elements before anything is assembled",
+                   topology_.mesh().n_elements());
+  const Supports<dim> supports(model(), *space_, topology_.discontinuous());
+  return StiffnessMatrix<dim>(model(), *space_, terms_, supports.constraints, all_bonds, basis_).matrix();
+}
+
+template <int dim>
 void CoupledSystem<dim>::apply_load(double load_factor) {
   PERIMORPH_ASSERT(space_ != nullptr, "load factor {} before anything is assembled", load_factor);
   load_factor_ = load_factor;

@@ -36,17 +36,35 @@ class InBasis : public Operator {
   mutable MultiVector input_, output_;
 };
 
+/// What a library throws is a computation that cannot go on, unless there is no memory; what we throw remains what it
+/// is.
+template <class Work>
+void translated(const char* what, const Work& work) {
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const base::MemoryError&) {
+    throw;
+  } catch (const base::Bug&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw base::ComputationError(what + std::string(error.what()));
+  }
+}
+
 }  // namespace
 
-LinearSolver::LinearSolver(SolverParameters parameters, base::Profile& profile)
-    : parameters_(std::move(parameters)), profile_(profile) {
+LinearSolver::LinearSolver(const base::Comm& comm, SolverParameters parameters, base::Profile& profile)
+    : consensus_(comm), parameters_(std::move(parameters)), profile_(profile) {
   PERIMORPH_ASSERT(parameters_.max_iterations > 0 && parameters_.renewal_cost >= 0., "{} iterations, renewal cost {}",
                    parameters_.max_iterations, parameters_.renewal_cost);
 }
 
 void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
                                 const Teuchos::RCP<Matrix>& preconditioner_matrix, const NearNullSpace& near_null_space,
-                                const Teuchos::RCP<const Operator>& basis, std::optional<base::NodeWeights> from_old) {
+                                const Teuchos::RCP<const Operator>& basis, std::optional<base::NodeWeights> from_old,
+                                std::function<Teuchos::RCP<Matrix>()> whole_matrix) {
   PERIMORPH_ASSERT(!linear_operator.is_null() && !preconditioner_matrix.is_null(), "an operator is missing");
   PERIMORPH_ASSERT(linear_operator->getDomainMap()->isSameAs(*preconditioner_matrix->getRowMap()),
                    "the preconditioner's matrix has other unknowns");
@@ -54,6 +72,7 @@ void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
   preconditioner_matrix_ = preconditioner_matrix;
   near_null_space_ = near_null_space;
   basis_ = basis;
+  whole_matrix_ = std::move(whole_matrix);
   const bool can_move = from_old && !moved_ && condition_ == Condition::good && cycle_ == Cycle::fast;
   if (!can_move) return forget();
   moved_ = std::move(from_old);
@@ -84,12 +103,12 @@ LinearSolver::Outcome LinearSolver::solve(const MultiVector& right_hand_side, Mu
   if (!std::isfinite(norm[0])) return {false, 0, "the residual is not a finite number"};
 
   const double relative_tolerance = target / norm[0];
-  Outcome outcome = attempt(right_hand_side, solution, relative_tolerance);
-  while (!outcome.converged && cycle_ != Cycle::one_level) {
-    condition_ = Condition::missing;
-    cycle_ = cycle_ == Cycle::fast ? Cycle::robust : Cycle::one_level;
+  Outcome outcome{false, 0, ""};
+  for (bool is_last = false; !outcome.converged && !is_last;) {
+    is_last = is_last_resort();
     solution.putScalar(0.);
     outcome = attempt(right_hand_side, solution, relative_tolerance);
+    if (!outcome.converged) go_to_next_resort();
   }
   if (!outcome.converged) {
     outcome.trouble = fmt::format(
@@ -103,14 +122,22 @@ LinearSolver::Outcome LinearSolver::solve(const MultiVector& right_hand_side, Mu
   return outcome;
 }
 
+/// What has failed is never kept: a factorization that is no longer of the present matrix is made anew once more.
+void LinearSolver::go_to_next_resort() {
+  condition_ = Condition::missing;
+  if (cycle_ != Cycle::one_level) cycle_ = cycle_ == Cycle::fast ? Cycle::robust : Cycle::one_level;
+}
+
 LinearSolver::Outcome LinearSolver::attempt(const MultiVector& right_hand_side, MultiVector& solution,
                                             double relative_tolerance) {
   try {
     prepare();
+    return iterate(right_hand_side, solution, relative_tolerance);
+  } catch (const base::MemoryError&) {
+    throw;
   } catch (const base::ComputationError& error) {
     return {false, 0, error.what()};
   }
-  return iterate(right_hand_side, solution, relative_tolerance);
 }
 
 bool LinearSolver::is_factorized() const {
@@ -121,18 +148,22 @@ void LinearSolver::build() {
   multigrid_.reset();
   factorization_.reset();
   if (is_factorized()) {
-    factorization_ = std::make_unique<Factorization>(preconditioner_matrix_);
+    factorization_ = std::make_unique<Factorization>(whole_matrix_ ? whole_matrix_() : preconditioner_matrix_);
   } else {
     multigrid_ = std::make_unique<Multigrid>(preconditioner_matrix_, near_null_space_, parameters_.muelu, cycle_);
   }
   fresh_rate_ = 0.;
 }
 
+void LinearSolver::set_up(const std::function<void()>& work) {
+  consensus_.run([&] { translated("the preconditioner could not be set up: ", work); });
+}
+
 void LinearSolver::prepare() {
   const auto timer = profile_.measure(base::Phase::preconditioner);
   auto changed = std::exchange(changed_nodes_, {});
   if (const auto moved = std::exchange(moved_, std::nullopt)) {
-    multigrid_->move_to(preconditioner_matrix_, *moved);
+    set_up([&] { multigrid_->move_to(preconditioner_matrix_, *moved); });
     refreshed_ = true;
     return;
   }
@@ -143,15 +174,7 @@ void LinearSolver::prepare() {
     return;
   }
   const bool refresh = condition_ == Condition::aged && !refreshed_ && multigrid_;
-  try {
-    if (refresh) {
-      multigrid_->refresh();
-    } else {
-      build();
-    }
-  } catch (const std::exception& error) {
-    throw base::ComputationError(fmt::format("the preconditioner could not be set up: {}", error.what()));
-  }
+  set_up([&] { refresh ? multigrid_->refresh() : build(); });
   refreshed_ = refresh;
   excess_ = 0.;
   condition_ = Condition::good;
@@ -159,8 +182,17 @@ void LinearSolver::prepare() {
 
 LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, MultiVector& solution,
                                             double relative_tolerance) {
-  using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
   const auto timer = profile_.measure(base::Phase::cg);
+  Outcome outcome{false, 0, ""};
+  consensus_.run([&] {  // "non-positive value for p^H*A*p", not a number
+    translated("", [&] { outcome = run_conjugate_gradients(right_hand_side, solution, relative_tolerance); });
+  });
+  return outcome;
+}
+
+LinearSolver::Outcome LinearSolver::run_conjugate_gradients(const MultiVector& right_hand_side, MultiVector& solution,
+                                                            double relative_tolerance) {
+  using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
   const auto problem =
       Teuchos::rcp(new Problem(operator_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
   problem->setInitResVec(Teuchos::rcpFromRef(right_hand_side));  // known, as the solution starts from zero
@@ -175,13 +207,9 @@ LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, 
   list->setParameters(parameters_.belos);
   list->set("Maximum Iterations", parameters_.max_iterations);
   list->set("Convergence Tolerance", relative_tolerance);
-  try {
-    Belos::BlockCGSolMgr<double, MultiVector, Operator> solver(problem, list);
-    const bool converged = solver.solve() == Belos::Converged;
-    return {converged, solver.getNumIters(), ""};
-  } catch (const std::exception& error) {  // "non-positive value for p^H*A*p", not a number
-    return {false, 0, error.what()};
-  }
+  Belos::BlockCGSolMgr<double, MultiVector, Operator> solver(problem, list);
+  const bool converged = solver.solve() == Belos::Converged;
+  return {converged, solver.getNumIters(), ""};
 }
 
 /// Iterations per decade just after a rebuild are what it should take; what it takes more adds up, until it has cost as

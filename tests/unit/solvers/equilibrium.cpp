@@ -76,7 +76,7 @@ class Equilibrium : public testing::Test {
   solvers::Equilibrium::Outcome find(Springs& system, double tolerance) {
     solvers::SolverParameters parameters;
     parameters.muelu.set("multigrid algorithm", "none such");  // a factorization will do
-    solvers::Equilibrium equilibrium(parameters, profile);
+    solvers::Equilibrium equilibrium(*Tpetra::getDefaultComm(), parameters, profile);
     const std::vector<Eigen::Vector2d> coordinates(Springs::n_per_rank / 2, Eigen::Vector2d::Zero());
     equilibrium.linear_solver().set_operator(system.tangent(), system.matrix(),
                                              solvers::rigid_body_modes<2>(*system.matrix(), coordinates));

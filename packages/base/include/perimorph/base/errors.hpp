@@ -17,6 +17,11 @@ struct ComputationError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The memory is used up. Exit status 3.
+struct MemoryError : ComputationError {
+  using ComputationError::ComputationError;
+};
+
 /// A broken invariant of the program itself. Exit status 1.
 struct Bug : std::logic_error {
   using std::logic_error::logic_error;

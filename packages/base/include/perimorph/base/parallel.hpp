@@ -14,7 +14,7 @@ using Comm = Teuchos::Comm<int>;
 /// Runs local work that may throw; if it threw on any rank, every rank throws that error (of the lowest such rank).
 /// Collective.
 /// @param local_work must not communicate
-/// @throws UserError, ComputationError or Bug, the same on all ranks.
+/// @throws UserError, ComputationError (MemoryError where there is none left) or Bug, the same on all ranks.
 void on_all_ranks(const Comm& comm, const std::function<void()>& local_work);
 
 /// Sum, largest and smallest value over all ranks. Collective.

@@ -6,9 +6,9 @@
 
 namespace perimorph::base {
 
-/// While one of these lives, SIGTERM, SIGINT and SIGUSR1 do not end the program but are noted as requests, for a
-/// computation that asks for them where it can stop. A second SIGTERM or SIGINT ends the program at once. One at a
-/// time: signals belong to the process.
+/// While one of these lives, SIGTERM, SIGINT, SIGHUP (unless it was ignored) and SIGUSR1 do not end the program but are
+/// noted as requests, for a computation that asks for them where it can stop. A second one of the first three ends the
+/// program at once. One at a time: signals belong to the process.
 class Signals {
  public:
   Signals();
@@ -27,6 +27,7 @@ class Signals {
  private:
   void (*old_terminate_)(int);
   void (*old_interrupt_)(int);
+  void (*old_hang_up_)(int);
   void (*old_user_)(int);
 };
 

@@ -50,6 +50,10 @@ class CoupledSystem : public NonlinearSystem {
   /// Makes terms and matrices of the present topology. Collective.
   PreconditionerSource assemble();
 
+  /// The tangent with all bonds that hold now, in the basis of the preconditioner's matrix. It does not hear of later
+  /// changes. Collective.
+  Teuchos::RCP<Tpetra::CrsMatrix<double>> whole_matrix() const;
+
   /// From now on this load factor holds. Local.
   void apply_load(double load_factor);
 

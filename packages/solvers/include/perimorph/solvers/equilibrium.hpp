@@ -20,7 +20,9 @@ struct BalanceTarget {
 /// system whose terms are all linear takes one correction, but for what the tangent is not exact in.
 class Equilibrium {
  public:
-  Equilibrium(SolverParameters parameters, base::Profile& profile) : solver_(std::move(parameters), profile) {}
+  /// Collective. @param profile must outlive this
+  Equilibrium(const base::Comm& comm, SolverParameters parameters, base::Profile& profile)
+      : solver_(comm, std::move(parameters), profile) {}
 
   /// The solver of the corrections, which is told of new operators and changed values.
   LinearSolver& linear_solver() { return solver_; }

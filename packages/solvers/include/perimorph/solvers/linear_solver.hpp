@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <functional>
 #include <memory>
 #include <optional>
 
+#include "perimorph/base/consensus.hpp"
 #include "perimorph/base/profile.hpp"
 #include "perimorph/solvers/factorization.hpp"
 #include "perimorph/solvers/multigrid.hpp"
@@ -20,15 +22,19 @@ struct SolverParameters {
 /// preconditioner is kept as long as it serves, but for its finest level: then refreshed, then rebuilt.
 class LinearSolver {
  public:
-  LinearSolver(SolverParameters parameters, base::Profile& profile);
+  /// Collective. @param profile must outlive this
+  LinearSolver(const base::Comm& comm, SolverParameters parameters, base::Profile& profile);
 
   /// A new operator, and the matrix that its preconditioner is made from, which is near to it or the same. Local.
   /// @param basis T, if the preconditioner's matrix is near to T^T A T instead
   /// @param from_old the matrix's nodes from those of the one before, if there was one: the preconditioner moves with
   ///        them as long as it serves; without, it is rebuilt before the next solve
+  /// @param whole_matrix makes the operator in the basis as a matrix, for a factorization; collective. Without it the
+  ///        preconditioner's matrix is factorized
   void set_operator(const Teuchos::RCP<Operator>& linear_operator, const Teuchos::RCP<Matrix>& preconditioner_matrix,
                     const NearNullSpace& near_null_space, const Teuchos::RCP<const Operator>& basis = Teuchos::null,
-                    std::optional<base::NodeWeights> from_old = std::nullopt);
+                    std::optional<base::NodeWeights> from_old = std::nullopt,
+                    std::function<Teuchos::RCP<Matrix>()> whole_matrix = {});
 
   /// The preconditioner's matrix has new values in the rows of these owned nodes. Local.
   void note_change(const std::vector<int>& nodes);
@@ -43,20 +49,23 @@ class LinearSolver {
   };
 
   /// Solves A x = b from x = 0 until |b - A x| <= target (2-norm). Collective.
-  /// If the iteration breaks down or does not converge, it is tried again with a rebuilt, robust preconditioner, and
-  /// then with the last one: a factorization of the preconditioner's matrix, or a single level where that would take
-  /// too much memory.
+  /// If the iteration breaks down or does not converge, on whatever rank, it is tried again with a rebuilt, robust
+  /// preconditioner, and then with the last one: a factorization of the whole matrix as it is now, or a single level
+  /// where that would take too much memory.
+  /// @throws MemoryError on all ranks if one has no memory left.
   Outcome solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 
  private:
   enum class Condition { missing, aged, good };
   using Cycle = Multigrid::Cycle;
 
+  base::Consensus consensus_;
   SolverParameters parameters_;
   base::Profile& profile_;
   Teuchos::RCP<Operator> operator_;
   Teuchos::RCP<const Operator> basis_;
   Teuchos::RCP<Matrix> preconditioner_matrix_;
+  std::function<Teuchos::RCP<Matrix>()> whole_matrix_;
   NearNullSpace near_null_space_;
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
@@ -67,10 +76,14 @@ class LinearSolver {
   Cycle cycle_ = Cycle::fast;
 
   bool is_factorized() const;
+  bool is_last_resort() const { return cycle_ == Cycle::one_level && condition_ == Condition::missing; }
+  void go_to_next_resort();
   void prepare();
+  void set_up(const std::function<void()>& work);
   void build();
   Outcome attempt(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   Outcome iterate(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
+  Outcome run_conjugate_gradients(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   double fresh_rate_ = 0.;  ///< iterations per decade of reduction with the preconditioner as built
   double excess_ = 0.;      ///< iterations since the last set-up, beyond those at the fresh rate
   void judge(int iterations, double relative_tolerance);
