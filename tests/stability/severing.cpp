@@ -1,5 +1,7 @@
 // Bodies that part: the force goes to zero and the run goes on.
 
+#include <gmock/gmock.h>
+
 #include "watched_run.hpp"
 
 namespace perimorph::tests {
@@ -42,6 +44,25 @@ TEST_P(Severing, OneLargeIncrementBreaksItToo) {
   run.advance(0.5);
   run.expect_severed();
   EXPECT_GT(run.rows.back().broken, 100);  // snap-back
+}
+
+TEST_P(Severing, UnderATractionNoEquilibriumIsLeftAndTheFreePartIsTold) {
+  Specimen specimen = bar(grid({12, 6, 12., 6.}), notches_at(6.), GetParam());
+  specimen.displacements.pop_back();
+  specimen.tractions = {{"right", {Point2(1., 0.), Point2::Zero()}}};
+  SpecimenBody run(specimen);
+  run.advance(0.1);
+  const auto before = run.body.counts().broken_bonds;
+  std::string message;
+  try {
+    run.advance(100.);
+  } catch (const base::ComputationError& error) {
+    message = error.what();
+  }
+  EXPECT_THAT(message, testing::StartsWith("no equilibrium exists: the part of "));
+  EXPECT_THAT(message, testing::HasSubstr("is free, and a load of (600, "));  // 100 on an edge of 6
+  EXPECT_EQ(before, 0);
+  EXPECT_GT(run.body.counts().broken_bonds, 0);
 }
 
 TEST_P(Severing, TrianglesDoAsWell) {

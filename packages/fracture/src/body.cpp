@@ -1,10 +1,13 @@
 #include "perimorph/fracture/body.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/damage.hpp"
+#include "perimorph/operators/free_parts.hpp"
 
 namespace perimorph::fracture {
 
@@ -121,8 +124,19 @@ void Body<dim>::solve(Accuracy accuracy) {
   const auto outcome = equilibrium_.find(system_, u, {tolerance, state_.force_scale, state_.counts.broken_bonds > 0});
   state_.counts.linear_solves += outcome.linear_solves;
   state_.counts.cg_iterations += outcome.cg_iterations;
-  if (!outcome.converged) throw base::ComputationError(outcome.trouble);
+  if (!outcome.converged) give_up(outcome.trouble);
   state_.energies.external_work += base::sum(*comm_, work_.up_to(u, system_.internal_force(), system_.loads()));
+}
+
+/// Where nothing holds a part against its loads, that is why.
+template <int dim>
+void Body<dim>::give_up(const std::string& trouble) const {
+  const auto free = operators::free_parts(*comm_, model(), system_.space(), system_.loads());
+  if (free.empty()) throw base::ComputationError(trouble);
+  throw base::ComputationError(fmt::format(
+      "no equilibrium exists: the part of {} of {} nodes around ({:.6g}) is free, and a load of ({:.6g}) acts on it",
+      free[0].n_nodes, topology_.dofs().n_global_nodes(), fmt::join(free[0].center, ", "),
+      fmt::join(free[0].load, ", ")));
 }
 
 template <int dim>

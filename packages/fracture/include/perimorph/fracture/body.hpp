@@ -36,7 +36,7 @@ class Body {
   void update_topology();
 
   /// Solves R(u; bonds, load) = 0 for the displacement; costs nothing if it is accurate enough already.
-  /// @throws ComputationError if the solver fails.
+  /// @throws ComputationError if the solver fails, or if no equilibrium exists since a part of the body is free.
   void solve(Accuracy accuracy);
 
   /// Breaks the bonds that reached the critical stretch, or the worst of them (NumericalOptions::breaking_fraction);
@@ -93,6 +93,7 @@ class Body {
   void move_to_new_numbering();
   void assemble();
   void publish(const bonds::BondChange& change);
+  [[noreturn]] void give_up(const std::string& trouble) const;
 };
 
 }  // namespace perimorph::fracture

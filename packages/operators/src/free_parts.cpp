@@ -1,0 +1,151 @@
+#include "perimorph/operators/free_parts.hpp"
+
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "perimorph/base/parallel.hpp"
+
+namespace perimorph::operators {
+
+namespace {
+
+using base::GlobalId;
+
+/// Nodes that are held together, as far as this rank sees.
+class JoinedNodes {
+ public:
+  explicit JoinedNodes(int n_nodes) : parent_(n_nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  int first_of(int node) {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    return node;
+  }
+  void join(int one, int other) { parent_[first_of(one)] = first_of(other); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+template <int dim>
+JoinedNodes joined_nodes(const CoupledModel<dim>& model) {
+  JoinedNodes joined(model.dofs.n_nodes());
+  for (int e = 0; e < model.mesh.n_elements(); ++e) {
+    for (int k = 1; k < model.mesh.n_corners(e); ++k) joined.join(model.dofs.nodes_of(e)[k], model.dofs.nodes_of(e)[0]);
+  }
+  model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
+    if (bond.is_broken) return;
+    joined.join(model.dofs.nodes_of(bond.first_element)[0], model.dofs.nodes_of(bond.second_element)[0]);
+  });
+  return joined;
+}
+
+/// For each local node the lowest global node of its part. Collective.
+template <int dim>
+std::vector<GlobalId> parts_of_nodes(const base::Comm& comm, const CoupledModel<dim>& model) {
+  const auto& dofs = model.dofs;
+  JoinedNodes joined = joined_nodes(model);
+  std::vector<GlobalId> part(dofs.n_nodes());
+  for (int n = 0; n < dofs.n_nodes(); ++n) part[n] = dofs.global_node(n);
+  Tpetra::Vector<double> owned(dofs.owned_dofs()), all(dofs.all_dofs());
+  for (GlobalId has_changed = 1; has_changed != 0;) {
+    std::vector<GlobalId> lowest = part;
+    for (int n = 0; n < dofs.n_nodes(); ++n) {
+      GlobalId& low = lowest[joined.first_of(n)];
+      low = std::min(low, part[n]);
+    }
+    for (int n = 0; n < dofs.n_owned_nodes(); ++n) {
+      owned.replaceLocalValue(n * dim, static_cast<double>(lowest[joined.first_of(n)]));
+    }
+    all.doImport(owned, *dofs.import(), Tpetra::INSERT);
+    const auto values = all.getLocalViewHost(Tpetra::Access::ReadOnly);
+    has_changed = 0;
+    for (int n = 0; n < dofs.n_nodes(); ++n) {
+      const auto now = std::min(lowest[joined.first_of(n)], static_cast<GlobalId>(values(n * dim, 0)));
+      if (now != part[n]) has_changed = 1;
+      part[n] = now;
+    }
+    has_changed = base::max(comm, has_changed);
+  }
+  return part;
+}
+
+/// What a rank knows of a part. Trivially copyable, so that it can travel.
+template <int dim>
+struct Share {
+  GlobalId part = 0, n_nodes = 0;
+  std::array<double, dim> coordinates{}, load{};
+  std::array<int, dim> held{};
+
+  void add(const Share& other) {
+    n_nodes += other.n_nodes;
+    for (int c = 0; c < dim; ++c) {
+      coordinates[c] += other.coordinates[c];
+      load[c] += other.load[c];
+      held[c] += other.held[c];
+    }
+  }
+};
+
+template <int dim>
+Share<dim> share_of(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
+                    const std::vector<double>& loads, int node) {
+  Share<dim> share;
+  share.n_nodes = 1;
+  for (int c = 0; c < dim; ++c) {
+    share.coordinates[c] = model.mesh.coordinates[model.dofs.reference_node(node)][c];
+    share.load[c] = loads[node * dim + c];
+    share.held[c] = space.is_prescribed(node * dim + c) ? 1 : 0;
+  }
+  return share;
+}
+
+template <int dim>
+std::map<GlobalId, Share<dim>> by_part(const std::vector<Share<dim>>& shares) {
+  std::map<GlobalId, Share<dim>> parts;
+  for (const auto& share : shares) parts[share.part].add(share);
+  for (auto& [part, sum] : parts) sum.part = part;
+  return parts;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<FreePart<dim>> free_parts(const base::Comm& comm, const CoupledModel<dim>& model,
+                                      const discretization::Space<dim>& space, const std::vector<double>& loads) {
+  PERIMORPH_ASSERT(loads.size() == space.n_owned(), "{} loads for {} degrees of freedom", loads.size(),
+                   space.n_owned());
+  constexpr double felt = 1e-6;  // share of all loads; less is rounding
+  const auto part = parts_of_nodes(comm, model);
+  std::vector<Share<dim>> own;
+  for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) {
+    own.push_back(share_of(model, space, loads, n));
+    own.back().part = part[n];
+  }
+  std::vector<Share<dim>> sums;
+  for (const auto& [label, sum] : by_part(own)) sums.push_back(sum);
+  const double all_loads = base::sum(
+      comm, std::accumulate(loads.begin(), loads.end(), 0., [](double sum, double f) { return sum + std::abs(f); }));
+
+  std::vector<FreePart<dim>> free;
+  for (const auto& [label, sum] : by_part(base::gather_on_all(comm, sums))) {
+    FreePart<dim> one{sum.n_nodes, base::Point<dim>::Zero(), base::Point<dim>::Zero()};
+    for (int c = 0; c < dim; ++c) {
+      one.center[c] = sum.coordinates[c] / static_cast<double>(sum.n_nodes);
+      if (sum.held[c] == 0) one.load[c] = sum.load[c];
+    }
+    if (one.load.norm() > felt * all_loads) free.push_back(one);
+  }
+  return free;
+}
+
+template std::vector<FreePart<2>> free_parts<2>(const base::Comm&, const CoupledModel<2>&,
+                                                const discretization::Space<2>&, const std::vector<double>&);
+template std::vector<FreePart<3>> free_parts<3>(const base::Comm&, const CoupledModel<3>&,
+                                                const discretization::Space<3>&, const std::vector<double>&);
+
+}  // namespace perimorph::operators
