@@ -271,6 +271,8 @@ class Supports(Checked):
         self.assert_not_warned("symmetry")
         self.write_case({f"{TIP}/Center": [10, 6]})
         self.assert_not_warned("symmetry")
+        self.write_case(self.SYMMETRY | {"Material/Critical Stretch": None})  # nothing breaks
+        self.assert_not_warned("symmetry")
 
 
 class Plausibility(Checked):

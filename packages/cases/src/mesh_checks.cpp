@@ -153,7 +153,7 @@ std::vector<std::string> open_and_check(const Case& input, mesh::Mesh<dim>& whol
   if (!input.pre_cracks.empty()) mesh::open_along<dim>(whole, facets_of<dim>(input.pre_cracks));
   Checks<dim>(input, whole, mistakes).run();
   if (!mistakes.empty()) return {};
-  for (auto& line : warnings) line = "/Mesh/File: " + line;
+  for (auto& line : warnings) line.insert(0, "/Mesh/File: ");
   for (const auto& line : advice_on_supports(input, whole)) warnings.push_back(line);
   return warnings;
 }
