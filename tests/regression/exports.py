@@ -172,15 +172,6 @@ class Continued(Exports):
                 self.assertEqual(run.stderr.count(f"{name}: it cannot be continued"), 1, run.stderr)
                 file.write_bytes(kept)
 
-    def test_a_side_between_no_two_elements_is_refused(self):
-        self.run_until(2)
-        with open(self.output / "crack_path.csv", "a") as file:
-            file.write("1,x,2,3,4,5,6\n")
-        run = self.run_case("--restart", ranks=2)
-        self.assertEqual(run.returncode, 2, run.stderr)
-        self.assertEqual(run.stderr.count('crack_path.csv: it cannot be continued: "1,x,2,3,4,5,6" names no two elements'), 1,
-                         run.stderr)
-
 
 class Mistakes(Exports):
     def test_a_place_outside_the_body_names_the_probe(self):

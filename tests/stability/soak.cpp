@@ -107,14 +107,14 @@ struct WholeRun {
         rebalancing(comm, input.solver.largest_imbalance, std::vector<double>(mesh.n_global_elements, 1.),
                     base::silent_log()),
         body(comm, mesh, problem, input.numerical, profile),
-        results(comm, input, folder, {base::silent_log(), false}, profile, checkpoints.increment(),
-                checkpoints.results()) {
+        results(comm, input, folder, {base::silent_log(), false}, profile, checkpoints.results()) {
     if (start) body.restore(output::share_state(*comm, *start, mesh));
+    checkpoints.begin(results.state());
   }
 
   void advance_to(const cases::Case& input, int increment) {
-    output::RunObserver<2> observer(comm, results, checkpoints, rebalancing, requests);
-    fracture::LoopPosition position{checkpoints.increment()};
+    output::RunObserver<2> observer(comm, nullptr, results, checkpoints, rebalancing, requests);
+    auto position = checkpoints.position();
     fracture::run_adaptive_loop(body, {increment, input.loading.max_damage_iterations, input.loading.max_zone_growths},
                                 observer, position);
     body.forget_solves();  // the preconditioner is not there after a restart

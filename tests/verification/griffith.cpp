@@ -188,7 +188,7 @@ class CrackWatch : public fracture::LoopObserver<2> {
     increment_ = increment;
     has_grown_ = body.energies().dissipated > energy_of_growth_;
   }
-  bool stop_requested() override { return has_grown_; }
+  bool stop_requested(const fracture::LoopPosition&, fracture::Body<2>&) override { return has_grown_; }
 
   Criticals found;
 

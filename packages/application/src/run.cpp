@@ -1,10 +1,7 @@
 #include "perimorph/application/run.hpp"
 
-#include <Teuchos_XMLParameterListHelpers.hpp>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "outlook.hpp"
 #include "perimorph/base/errors.hpp"
@@ -19,6 +16,7 @@
 #include "perimorph/output/field_series.hpp"
 #include "perimorph/output/partition_costs.hpp"
 #include "perimorph/output/run_observer.hpp"
+#include "run_folder.hpp"
 
 namespace perimorph::application {
 
@@ -27,42 +25,6 @@ using Comm = Teuchos::RCP<const base::Comm>;
 using model::Problem;
 
 namespace {
-
-/// The names that a run writes to are none of those that it reads.
-void check_not_overwritten(const cases::Case& input, const std::string& folder) {
-  const auto is_result = [&](const std::string& file) {
-    std::error_code ignored;
-    for (const std::string& name : {std::string("resolved.xml"), input.name + ".e"}) {
-      if (std::filesystem::equivalent(std::filesystem::path(folder) / name, file, ignored)) return true;
-    }
-    return false;
-  };
-  for (const auto& [file, what] : {std::pair{input.file, "case"}, {input.mesh.file, "mesh"}}) {
-    if (!is_result(file)) continue;
-    throw base::UserError(
-        fmt::format("{}: the results would replace the {}: name another folder with --output", file, what));
-  }
-}
-
-void make_folder(const base::Comm& comm, const cases::Case& input, const std::string& folder) {
-  base::on_all_ranks(comm, [&] {
-    if (comm.getRank() != 0) return;
-    check_not_overwritten(input, folder);
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw base::UserError(fmt::format("{}: the output folder cannot be made: {}", folder, error.message()));
-  });
-}
-
-void write_resolved(const base::Comm& comm, const cases::Case& input, const std::string& file) {
-  base::on_all_ranks(comm, [&] {
-    if (comm.getRank() != 0) return;
-    std::ofstream stream(file);
-    Teuchos::writeParameterListToXmlOStream(input.resolved, stream);
-    stream.close();
-    if (!stream) throw base::UserError(fmt::format("{}: cannot be written", file));
-  });
-}
 
 template <int dim>
 void describe(const base::Comm& comm, const cases::Case& input, const Problem<dim>& problem,
@@ -88,13 +50,13 @@ void warn_of_names(const mesh::Mesh<dim>& whole, const cases::Case& input, const
   }
 }
 
-/// Places the seeds that are found by the strain, and calibrates the critical stretch to the elements in all seeds;
-/// returns what the case would choose better. Collective.
+/// Places the seeds that are found by the strain in the last of so many increments, and calibrates the critical stretch
+/// to the elements in all seeds; returns what the case would choose better. Collective.
 template <int dim>
 std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
-                                             const cases::Case& input, Problem<dim>& problem, base::Profile& profile,
-                                             const base::Log& log) {
-  fracture::place_automatic_seeds(comm, mesh, input.numerical, input.loading.increments, problem, profile, log);
+                                             const cases::Case& input, int increments, Problem<dim>& problem,
+                                             base::Profile& profile, const base::Log& log) {
+  fracture::place_automatic_seeds(comm, mesh, input.numerical, increments, problem, profile, log);
   warn_of_seeds_everywhere(*comm, mesh, input, problem, log);
   const double size = model::element_size(*comm, mesh, problem);
   const bool is_calibrated = model::calibrate_to_mesh(problem, input.numerical, size);
@@ -115,15 +77,16 @@ template <int dim>
 class Run {
  public:
   /// Reads the checkpoint, if there is to be one. The arguments must outlive this. Collective.
-  Run(const Comm& comm, const cases::Case& input, const std::string& folder, output::ConsoleOptions console,
+  Run(const Comm& comm, const cases::Case& input, RunFolder& folder, output::ConsoleOptions console,
       base::Profile& profile, Start start)
       : comm_(comm),
         input_(input),
         folder_(folder),
         console_(std::move(console)),
         profile_(profile),
-        checkpoints_(comm, input, folder, console_.log),
-        problem_(cases::make_problem<dim>(input)) {
+        checkpoints_(comm, input, folder.path(), console_.log),
+        problem_(cases::make_problem<dim>(input)),
+        appends_to_log_(start == Start::from_checkpoint) {
     if (start == Start::from_checkpoint) start_ = checkpoints_.load();
   }
 
@@ -135,31 +98,28 @@ class Run {
     output::Rebalancing<dim> rebalancing(comm_, input_.solver.largest_imbalance, std::move(costs), console_.log);
     auto mesh = distribute(whole, rebalancing);
     describe(*comm_, input_, problem_, mesh, console_.log);
-    advise(console_.log, input_, place_and_calibrate(comm_, mesh, input_, problem_, profile_, console_.log),
-           spdlog::level::info);
-    try {
-      fracture::LoopPosition position{checkpoints_.increment()};
-      while (!is_done_on(mesh, rebalancing, position)) mesh = distribute(whole, rebalancing);
-    } catch (const base::ComputationError&) {
-      save_what_is_left();
-      throw;
-    }
+    const auto advice =
+        place_and_calibrate(comm_, mesh, input_, checkpoints_.planned_increments(), problem_, profile_, console_.log);
+    advise(console_.log, input_, advice, spdlog::level::info);
+    auto position = checkpoints_.position();
+    while (!is_done_on(mesh, rebalancing, position)) mesh = distribute(whole, rebalancing);
   }
 
  private:
   Comm comm_;
   const cases::Case& input_;
-  std::string folder_;
+  RunFolder& folder_;
   output::ConsoleOptions console_;
   base::Profile& profile_;
   output::Checkpoints<dim> checkpoints_;
   output::StopRequests requests_;
   Problem<dim> problem_;
   std::optional<io::Checkpoint> start_;  ///< state from which the next body goes on; none: from the beginning
+  bool appends_to_log_, has_taken_over_ = false;
 
   mesh::Mesh<dim> read() {
     const auto timer = profile_.measure(base::Phase::read);
-    auto checked = cases::read_whole_mesh<dim>(*comm_, input_, folder_);
+    auto checked = cases::read_whole_mesh<dim>(*comm_, input_, folder_.for_mesh());
     warn(console_.log, input_, checked.warnings);
     warn_of_names(checked.whole, input_, console_.log);
     checkpoints_.identify(checked.whole);
@@ -175,57 +135,81 @@ class Run {
   /// @throws ComputationError if it was asked to stop, and as run_adaptive_loop does.
   bool is_done_on(const mesh::Mesh<dim>& mesh, output::Rebalancing<dim>& rebalancing,
                   fracture::LoopPosition& position) {
-    const int increment = checkpoints_.increment();
     fracture::Body<dim> body(comm_, mesh, problem_, input_.numerical, profile_);
-    output::Results<dim> results(comm_, input_, folder_, console_, profile_, increment, checkpoints_.results());
-    results.add_exports(std::make_unique<output::Exports<dim>>(comm_, mesh, input_, folder_, increment));
-    checkpoints_.remove_later();
     if (start_) {
       body.restore(output::share_state(*comm_, *start_, mesh));
-    } else {
+    } else {  // what is refused is so before the results of an earlier run go
       body.update_topology();
       check_that_bonds_can_break(*comm_, input_, problem_, body);
     }
     start_.reset();
-    output::RunObserver<dim> observer(comm_, results, checkpoints_, rebalancing, requests_);
-    const auto& loading = input_.loading;
-    const fracture::LoopLimits limits{loading.increments, loading.max_damage_iterations, loading.max_zone_growths};
-    switch (run_adaptive_loop(body, limits, observer, position)) {
-      case fracture::LoopEnd::stopped:
-        throw base::ComputationError(fmt::format("{} asked it to stop; --restart goes on after increment {}",
-                                                 requests_.signal(), checkpoints_.increment()));
-      case fracture::LoopEnd::rebalance:
-        start_ = output::gather_state(*comm_, body);
-        return false;
-      case fracture::LoopEnd::done:
-        results.summarize(body);
+    auto results = open_results(mesh);
+    output::RunObserver<dim> observer(comm_, folder_.lock(), *results, checkpoints_, rebalancing, requests_);
+    try {
+      const auto end = run_adaptive_loop(body, limits(), observer, position);
+      if (end == fracture::LoopEnd::rebalance) start_ = output::gather_state(*comm_, body);
+      if (end == fracture::LoopEnd::stopped) stop();
+      if (end == fracture::LoopEnd::done) results->summarize(body);
+      return end == fracture::LoopEnd::done;
+    } catch (const base::ComputationError&) {
+      save_what_is_left(*results);
+      throw;
     }
-    return true;
+  }
+
+  fracture::LoopLimits limits() const {
+    const auto& loading = input_.loading;
+    return {loading.increments, loading.max_damage_iterations, loading.max_zone_growths};
+  }
+
+  /// The first time, what an earlier run has left gives way: its checkpoints before its results if this run begins
+  /// anew, so that none counts on results that are gone, and otherwise those after which this run does not go on.
+  std::unique_ptr<output::Results<dim>> open_results(const mesh::Mesh<dim>& mesh) {
+    const auto& earlier = checkpoints_.results();
+    if (!has_taken_over_ && !earlier) checkpoints_.remove_later();
+    if (!has_taken_over_) folder_.take_over(appends_to_log_);
+    auto results = std::make_unique<output::Results<dim>>(comm_, input_, folder_.path(), console_, profile_, earlier);
+    results->add_exports(
+        std::make_unique<output::Exports<dim>>(comm_, mesh, input_, folder_.path(), checkpoints_.increment(), earlier));
+    if (!has_taken_over_) checkpoints_.remove_later();
+    has_taken_over_ = true;
+    checkpoints_.begin(results->state());
+    return results;
+  }
+
+  [[noreturn]] void stop() const {
+    throw base::ComputationError(fmt::format("{} asked it to stop; --restart goes on after increment {}{}",
+                                             requests_.signal(), checkpoints_.increment(),
+                                             output::solves_of_the_next(checkpoints_.position())));
   }
 
   /// A computation that cannot go on can be continued by other means.
-  void save_what_is_left() {
+  void save_what_is_left(output::Results<dim>& results) {
     try {
-      checkpoints_.write();
+      checkpoints_.write(results);
     } catch (const base::ComputationError& error) {
       console_.log->warn("warning: {}", error.what());
     }
   }
 };
 
+/// Collective.
+bool has_checkpoints(const base::Comm& comm, const std::string& folder) {
+  const bool has = comm.getRank() == 0 && !io::CheckpointFolder(folder).list().empty();
+  return base::max(comm, static_cast<GlobalId>(has)) > 0;
+}
+
 template <int dim>
 void run_in(const Comm& comm, const cases::Case& input, const std::string& folder, Verbosity verbosity, Start start) {
   base::Profile profile;
   check_solver_parameters(input);
-  make_folder(*comm, input, folder);
-  base::Log log;
-  base::on_all_ranks(*comm, [&] {
-    log = base::make_log(*comm, verbosity == Verbosity::quiet, folder + "/run.log", start == Start::from_checkpoint);
-  });
+  const auto log = base::make_log(*comm, verbosity == Verbosity::quiet);
+  RunFolder run_folder(comm, input, folder, log);
+  const bool is_anew = start == Start::at_the_first_increment;
+  if (is_anew && !has_checkpoints(*comm, folder)) run_folder.open_log(false);
   try {
     const bool shows_progress = verbosity == Verbosity::progress && comm->getRank() == 0;
-    Run<dim> run(comm, input, folder, {log, shows_progress}, profile, start);
-    write_resolved(*comm, input, folder + "/resolved.xml");
+    Run<dim> run(comm, input, run_folder, {log, shows_progress}, profile, start);
     run.to_the_end();
   } catch (const std::exception& error) {
     log->info("\n{}\n{}", error.what(), profile.table());
@@ -302,7 +286,8 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
   warn(log, input, warnings);
   warn_of_names(whole, input, log);
 
-  advise(log, input, place_and_calibrate(comm, mesh, input, problem, profile, log), spdlog::level::warn);
+  const auto advice = place_and_calibrate(comm, mesh, input, input.loading.increments, problem, profile, log);
+  advise(log, input, advice, spdlog::level::warn);
   fracture::Body<dim> body(comm, mesh, problem, input.numerical, profile);
   body.update_topology();
   check_that_bonds_can_break(*comm, input, problem, body);

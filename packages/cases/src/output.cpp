@@ -63,8 +63,12 @@ void declare(const input::Section& section, Output& output) {
                        "bits. It takes a second per million elements and a set-up of the preconditioner.");
   changeable.parameter(
       "Checkpoint Minutes", output.checkpoint_minutes, at_least(0.),
-      "A checkpoint is written when the last one is so many minutes old and an increment is accepted; 0 is never. The "
-      "end of the run, an error with status 3, SIGTERM, SIGINT and SIGUSR1 write one anyway. The last two are kept.");
+      "A checkpoint is written when the last one is so many minutes old, also in the middle of a long increment; 0 is "
+      "never. The end of the run, an error with status 3, SIGTERM, SIGINT and SIGUSR1 write one anyway. With "
+      "Checkpoint "
+      "Every those within an increment are of every twentieth solve, after which the preconditioner is set up anew "
+      "(not "
+      "if this is 0). The last two are kept.");
   section.parameter(
       "Reactions", output.reactions, names("a list of groups such as {left, right}"),
       "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed displacement.");

@@ -14,6 +14,26 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
       fmt::format("increment {}: more than {} {}; /Loading/{} sets this limit", increment, limit, what, parameter));
 }
 
+/// Solves and breaks bonds until nothing breaks any more; returns false if it was asked to stop.
+template <int dim>
+bool break_until_quiet(Body<dim>& body, const LoopLimits& limits, LoopObserver<dim>& observer, LoopPosition& position) {
+  for (;;) {
+    if (!position.is_solved) {
+      check_limit(position.damage_iterations++, limits.max_damage_iterations, position.increment + 1, "solves",
+                  "Maximum Damage Iterations");
+      body.solve(position.accuracy);
+      observer.solved(position.increment + 1, body);
+      position.is_solved = true;
+    }
+    if (observer.stop_requested(position, body)) return false;
+    const bool is_quiet = body.break_bonds() == 0;
+    const bool is_accurate = position.accuracy == Accuracy::accepted;
+    position.is_solved = false;
+    position.accuracy = is_quiet && !is_accurate ? Accuracy::accepted : Accuracy::breaking;
+    if (is_quiet && is_accurate) return true;
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -28,21 +48,13 @@ LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& lim
   const int increment = position.increment + 1;
   if (position.damage_iterations == 0) body.apply_load(load_factor);
   do {
-    body.update_topology();
-    if (observer.rebalance_wanted(body)) return LoopEnd::rebalance;
-    check_limit(position.growths++, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
-    bool stopped = false;
-    const auto breaks = [&](Accuracy accuracy) {
-      check_limit(position.damage_iterations++, limits.max_damage_iterations, increment, "solves",
-                  "Maximum Damage Iterations");
-      body.solve(accuracy);
-      observer.solved(increment, body);
-      stopped = observer.stop_requested();
-      return !stopped && body.break_bonds() > 0;
-    };
-    while (breaks(Accuracy::breaking) || (!stopped && breaks(Accuracy::accepted))) {
+    if (!position.is_solved) {
+      body.update_topology();
+      if (observer.rebalance_wanted(body)) return LoopEnd::rebalance;
+      check_limit(position.growths++, limits.max_zone_growths, increment, "growths of the zone",
+                  "Maximum Zone Growths");
     }
-    if (stopped) return LoopEnd::stopped;
+    if (!break_until_quiet(body, limits, observer, position)) return LoopEnd::stopped;
   } while (body.flag_damaged_elements() > 0);
   position = {increment};
   observer.accepted(increment, body);

@@ -186,6 +186,11 @@ void Body<dim>::restore(const discretization::SavedState<dim>& saved) {
   static_cast<discretization::History<dim>&>(state_) = saved;
   state_.displacement = discretization::nodal_displacement(saved, topology_);
   system_.apply_load(state_.load_factor);
+  renew_forces();
+}
+
+template <int dim>
+void Body<dim>::renew_forces() {
   system_.evaluate(displacement());
   work_.go_on_from(displacement(), system_.internal_force());
 }

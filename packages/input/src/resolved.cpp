@@ -184,6 +184,16 @@ std::string line_of(const std::string& path, const ParameterEntry& value) {
   return fmt::format("{} = {}\n", path, to_literal(value));
 }
 
+/// In one line, whatever names and texts hold.
+std::string in_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n' || c == '\\') line += '\\';
+    line += c == '\n' ? 'n' : c;
+  }
+  return line;
+}
+
 }  // namespace
 
 Resolved read(const std::string& file, const std::vector<std::string>& overrides, const ParameterList& schema,
@@ -215,7 +225,7 @@ std::string deciding_listing(const ParameterList& list, const ParameterList& sch
     if (item.second.isList()) {
       text += deciding_listing(list.sublist(item.first), schema.sublist(declared), full);
     } else if (!rule_of(schema.getEntry(declared)).is_changeable()) {
-      text += line_of(full, item.second);
+      text += in_one_line(fmt::format("{} = {}", full, to_literal(item.second))) + '\n';
     }
   }
   return text;

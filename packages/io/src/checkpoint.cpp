@@ -11,13 +11,16 @@
 #include <fstream>
 #include <iterator>
 
+#include "checksum.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/io/disk.hpp"
 
 namespace perimorph::io {
 
 namespace {
 
 constexpr std::size_t n_kept = 2;
+constexpr const char* unfinished = ".part";
 
 /// An HDF5 identifier that is closed when it goes.
 class Handle {
@@ -45,14 +48,10 @@ Handle in_memory() {
   return {H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
 }
 
-/// In chunks, each with its checksum.
 void put(hid_t file, const std::string& name, hid_t type, std::size_t size, const void* values) {
-  constexpr hsize_t values_per_chunk = 1 << 16;
-  const hsize_t length = size, chunk = std::min(std::max<hsize_t>(length, 1), values_per_chunk);
+  const hsize_t length = size;
   const Handle space(H5Screate_simple(1, &length, nullptr), H5Sclose);
-  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  require(H5Pset_chunk(properties, 1, &chunk) >= 0 && H5Pset_fletcher32(properties) >= 0);
-  const Handle data(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
+  const Handle data(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   if (size > 0) require(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
 }
 
@@ -110,6 +109,24 @@ Checkpoint checkpoint_in(std::string image) {
   return checkpoint;
 }
 
+/// The checksum stands behind the image, where HDF5 does not look: it is of all bytes, HDF5's own structures among
+/// them.
+std::string with_checksum(std::string image) {
+  const Checksum checksum = checksum_of(image);
+  return image.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+}
+
+/// The image that a file's bytes hold, if they are those that were written.
+std::string checked_image(std::string bytes) {
+  require(bytes.size() > sizeof(Checksum));
+  const std::size_t size = bytes.size() - sizeof(Checksum);
+  Checksum there = 0;
+  std::memcpy(&there, bytes.data() + size, sizeof there);
+  require(there == checksum_of({bytes.data(), size}));
+  bytes.resize(size);
+  return bytes;
+}
+
 /// Writes the bytes and waits until the disk has them; returns what went wrong, or 0.
 int write_to_disk(const std::string& file, const std::string& bytes) {
   const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
@@ -127,50 +144,59 @@ int write_to_disk(const std::string& file, const std::string& bytes) {
 
 }  // namespace
 
-std::vector<int> CheckpointFolder::increments() const {
-  std::vector<int> found;
+std::vector<CheckpointId> CheckpointFolder::list() const {
+  std::vector<CheckpointId> found;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
-    int increment = 0;
     const std::string name = entry.path().filename();
-    if (std::sscanf(name.c_str(), "checkpoint-%d.h5", &increment) == 1 && entry.path() == file(increment)) {
-      found.push_back(increment);
-    }
+    CheckpointId id;
+    const int n_numbers = std::sscanf(name.c_str(), "checkpoint-%d_%d", &id.increment, &id.solves);
+    if (n_numbers >= 1 && name == std::filesystem::path(file(id)).filename()) found.push_back(id);
   }
   std::sort(found.begin(), found.end());
   return found;
 }
 
-std::string CheckpointFolder::file(int increment) const {
-  return (std::filesystem::path(folder_) / fmt::format("checkpoint-{:06d}.h5", increment)).string();
+std::string CheckpointFolder::file(CheckpointId id) const {
+  std::string name = fmt::format("checkpoint-{:06d}", id.increment);
+  if (id.solves > 0) name += fmt::format("_{:06d}", id.solves);
+  return (std::filesystem::path(folder_) / (name + ".h5")).string();
 }
 
-void CheckpointFolder::write(int increment, const Checkpoint& checkpoint) const {
-  const std::string name = file(increment), beside = name + ".part";
-  int error = write_to_disk(beside, image_of(checkpoint));
+void CheckpointFolder::write(CheckpointId id, const Checkpoint& checkpoint) const {
+  const std::string name = file(id), beside = name + unfinished;
+  int error = write_to_disk(beside, with_checksum(image_of(checkpoint)));
   if (error == 0 && std::rename(beside.c_str(), name.c_str()) != 0) error = errno;
   if (error != 0) {
     std::remove(beside.c_str());
     throw base::ComputationError(fmt::format("{}: the checkpoint cannot be written: {}", name, std::strerror(error)));
   }
-  const auto all = increments();
+  bring_to_disk(folder_);
+  const auto all = list();
   for (std::size_t i = 0; i + n_kept < all.size(); ++i) std::remove(file(all[i]).c_str());
 }
 
-Checkpoint CheckpointFolder::read(int increment) const {
-  std::ifstream stream(file(increment), std::ios::binary);
-  std::string image{std::istreambuf_iterator<char>(stream), {}};
+Checkpoint CheckpointFolder::read(CheckpointId id) const {
+  std::ifstream stream(file(id), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   try {
-    return checkpoint_in(std::move(image));
+    return checkpoint_in(checked_image(std::move(bytes)));
   } catch (const base::Bug&) {
-    throw base::UserError(fmt::format("{}: the checkpoint cannot be read, or is damaged", file(increment)));
+    throw base::UserError(fmt::format("{}: the checkpoint cannot be read, or is damaged", file(id)));
   }
 }
 
-void CheckpointFolder::remove_after(int increment) const {
-  for (const int other : increments()) {
-    if (other > increment) std::remove(file(other).c_str());
+void CheckpointFolder::remove_after(CheckpointId id) const {
+  for (const auto& other : list()) {  // the newest at last, so that none counts again that had been superseded
+    if (id < other) std::remove(file(other).c_str());
   }
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
+    const std::string name = entry.path().filename();
+    const bool is_unfinished = name.rfind("checkpoint-", 0) == 0 && entry.path().extension() == unfinished;
+    if (is_unfinished) std::filesystem::remove(entry.path(), ignored);
+  }
+  bring_to_disk(folder_);
 }
 
 }  // namespace perimorph::io

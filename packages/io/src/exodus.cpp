@@ -10,8 +10,10 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <regex>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/io/disk.hpp"
 
 namespace perimorph::io {
 
@@ -239,22 +241,14 @@ void put_sets(const File& file, const ExodusModel<dim>& model) {
   }
 }
 
-/// What stands for one file of a series: itself, and spread files of any number of ranks.
-std::vector<std::string> files_of(const std::string& name) {
-  const std::filesystem::path path(name);
-  std::vector<std::string> found;
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) found.push_back(name);
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string other = entry.path().filename(), first = path.filename();
-    int n_ranks = 0, rank = 0;
-    const bool is_part = other.rfind(first + '.', 0) == 0 &&
-                         std::sscanf(other.c_str() + first.size(), ".%d.%d", &n_ranks, &rank) == 2 &&
-                         other == first + ending_of({rank, n_ranks});
-    if (is_part) found.push_back((path.parent_path() / other).string());
-  }
-  return found;
+/// Which file of a series a name stands for, whole or spread over any number of ranks; 0 if for none.
+int number_in_series(const std::string& first, const std::string& name) {
+  static const std::regex ending(R"((?:-s(\d{4,9}))?(?:\.\d{1,9}\.\d{1,9})?)");
+  std::smatch match;
+  if (name.rfind(first, 0) != 0) return 0;
+  const std::string rest = name.substr(first.size());
+  if (!std::regex_match(rest, match, ending)) return 0;
+  return match[1].matched ? std::stoi(match[1]) : 1;
 }
 
 /// In netCDF's classic formats bytes 4 to 7 are the number of records, which are the steps, high byte first.
@@ -269,11 +263,13 @@ void cut_steps(const std::string& file, int n_steps) {
     throw base::UserError(
         fmt::format("{}: the series cannot be continued: this is no file with {} steps or more", file, n_steps));
   }
+  if (n_present == static_cast<unsigned int>(n_steps)) return;
   for (int i = 0; i < 4; ++i) header[7 - i] = static_cast<char>((n_steps >> 8 * i) & 255);
   stream.seekp(4);
   stream.write(header + 4, 4);
   stream.close();
   if (!stream) throw base::UserError(fmt::format("{}: the series cannot be written", file));
+  bring_to_disk(file);
 }
 
 }  // namespace
@@ -283,7 +279,7 @@ ExodusSeries<dim>::ExodusSeries(std::string file, std::string title, Names names
                                 std::optional<SpreadPart> part)
     : file_(std::move(file)),
       title_(std::move(title)),
-      part_ending_(part ? ending_of(*part) : ""),
+      part_(part),
       names_(std::move(names)),
       information_(std::move(information)) {
   PERIMORPH_ASSERT(!file_.empty(), "a series without a name");
@@ -298,13 +294,18 @@ ExodusSeries<dim>::~ExodusSeries() {
 }
 
 template <int dim>
-std::string ExodusSeries<dim>::current_file() const {
-  return name_in_series(file_, n_files_) + part_ending_;
+std::string ExodusSeries<dim>::file(int number, int rank) const {
+  return name_in_series(file_, number) + (part_ ? ending_of({rank, part_->n_ranks}) : "");
+}
+
+template <int dim>
+std::string ExodusSeries<dim>::own_file(int number) const {
+  return file(number, part_ ? part_->rank : 0);
 }
 
 template <int dim>
 void ExodusSeries<dim>::check(int status, const char* what) const {
-  if (status < 0) fail(current_file(), what);
+  if (status < 0) fail(own_file(n_files_), what);
 }
 
 template <int dim>
@@ -319,20 +320,37 @@ template <int dim>
 void ExodusSeries<dim>::resume(const SeriesExtent& extent) {
   PERIMORPH_ASSERT(exodus_id_ < 0, "{}: resumed after start()", file_);
   PERIMORPH_ASSERT(extent.files >= 0 && extent.steps >= 0, "{}: {} files, {} steps", file_, extent.files, extent.steps);
-  n_files_ = extent.files;
+  n_files_ = n_on_disk_ = extent.files;
   n_steps_ = extent.steps;
 }
 
 template <int dim>
 void ExodusSeries<dim>::remove_the_rest() const {
-  std::error_code ignored;
-  for (int n = n_files_ + 1;; ++n) {  // later files of an earlier run would be opened as part of this series
-    const auto files = files_of(name_in_series(file_, n));
-    if (files.empty()) break;
-    for (const auto& file : files) std::filesystem::remove(file, ignored);
+  const std::filesystem::path path(file_);
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  std::vector<std::filesystem::path> later;  // would be opened as part of this series
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const int number = number_in_series(path.filename(), entry.path().filename());
+    if (number > n_files_) later.push_back(entry.path());
+    if (number > 0 && number == n_files_) cut_steps(entry.path(), n_steps_);
   }
-  if (n_files_ == 0) return;
-  for (const auto& file : files_of(name_in_series(file_, n_files_))) cut_steps(file, n_steps_);
+  for (const auto& other : later) std::filesystem::remove(other, error);
+}
+
+template <int dim>
+base::GlobalId ExodusSeries<dim>::current_size() const {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(own_file(n_files_), error);
+  if (!error) return static_cast<base::GlobalId>(size);
+  throw base::ComputationError(
+      fmt::format("{}: it is missing: something has removed it while the run was writing it", own_file(n_files_)));
+}
+
+template <int dim>
+void ExodusSeries<dim>::bring_to_disk() {
+  for (int number = n_on_disk_ + 1; number <= n_files_; ++number) io::bring_to_disk(own_file(number));
+  if (exodus_id_ >= 0) n_on_disk_ = n_files_ - 1;  // more follows in the last one
 }
 
 template <int dim>
@@ -345,12 +363,12 @@ void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
 
   // The 64-bit-offset format needs neither HDF5 nor MPI, and is as fast.
   int our_word_size = sizeof(double), file_word_size = sizeof(double);
-  exodus_id_ = ex_create(current_file().c_str(), EX_CLOBBER | EX_LARGE_MODEL, &our_word_size, &file_word_size);
+  exodus_id_ = ex_create(own_file(n_files_).c_str(), EX_CLOBBER | EX_LARGE_MODEL, &our_word_size, &file_word_size);
   check(exodus_id_, "file");
   check(ex_set_max_name_length(exodus_id_, static_cast<int>(longest_name(model, names_))), "header");
 
   // All definitions first: a definition after data would move the data.
-  const File file{exodus_id_, current_file()};
+  const File file{exodus_id_, own_file(n_files_)};
   define_sizes(file, model, title_, std::accumulate(block_sizes_.begin(), block_sizes_.end(), 0));
   define_blocks_and_sets(file, model);
   const bool is_empty = model.coordinates.empty();  // a rank without elements has no variables on nodes and elements

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
 
+#include "checksum.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::io {
@@ -39,44 +39,39 @@ std::string line(const std::vector<std::string>& values) {
 }  // namespace
 
 History::History(const std::string& file, const std::vector<std::string>& columns)
-    : file_(file), n_columns_(columns.size()) {
+    : file_(file), n_columns_(columns.size()), extent_{std::filesystem::path(file).filename(), 0, 0} {
   PERIMORPH_ASSERT(n_columns_ > 0, "{}: a table without columns", file_);
   errno = 0;
-  stream_.open(file_);
-  stream_ << line(columns) << std::flush;
+  std::ofstream{file_}.flush();        // empty, and then behind what is there: if it is no longer what we have written,
+  stream_.open(file_, std::ios::app);  // that shows
+  append(line(columns));
   if (!stream_) {
     throw base::UserError(fmt::format("{}: the history cannot be written: {}; name another directory with --output",
                                       file_, std::strerror(errno)));
   }
 }
 
-History::History(std::string file, std::size_t n_columns)
-    : file_(std::move(file)), n_columns_(n_columns), stream_(file_, std::ios::app) {}
+History::History(const std::string& file, std::size_t n_columns, const FileExtent& extent)
+    : file_(file), n_columns_(n_columns), extent_(extent), stream_(file_, std::ios::app) {}
 
-History History::resume(const std::string& file, const std::vector<std::string>& columns, int increment, Rows rows) {
-  std::ifstream old(file);
-  std::string text, kept;
-  std::getline(old, text);
-  if (text + '\n' != line(columns)) {
+History History::resume(const std::string& file, const std::vector<std::string>& columns, const FileExtent& extent) {
+  std::string header;
+  std::getline(std::ifstream(file), header);
+  if (header + '\n' != line(columns)) {
     throw base::UserError(fmt::format("{}: it cannot be continued: it is missing or has other columns", file));
   }
-  kept = text + '\n';
-  int last = 0;
-  // The last line of a run that ended by force may be cut off, and its number with it.
-  while (std::getline(old, text) && !old.eof() && std::atoi(text.c_str()) <= increment) {
-    last = std::atoi(text.c_str());
-    kept += text + '\n';
-  }
-  if (rows == Rows::in_each_increment && last != increment) {
-    throw base::UserError(fmt::format("{}: it cannot be continued: increment {} is missing", file, increment));
-  }
-  const std::string beside = file + ".part";
-  std::ofstream renewed(beside);
-  renewed << kept << std::flush;
   std::error_code error;
-  if (renewed) std::filesystem::rename(beside, file, error);
-  if (!renewed || error) throw base::UserError(fmt::format("{}: the history cannot be written", file));
-  return {file, columns.size()};
+  if (static_cast<base::GlobalId>(std::filesystem::file_size(file, error)) != extent.size) {
+    std::filesystem::resize_file(file, static_cast<std::uintmax_t>(extent.size), error);
+  }
+  if (error) throw base::UserError(fmt::format("{}: the history cannot be written: {}", file, error.message()));
+  return {file, columns.size(), extent};
+}
+
+void History::append(const std::string& text) {
+  stream_ << text << std::flush;
+  extent_.size += static_cast<base::GlobalId>(text.size());
+  extent_.checksum = checksum_of(text, static_cast<Checksum>(extent_.checksum));
 }
 
 void History::write(const std::vector<double>& row) {
@@ -88,10 +83,18 @@ void History::write(const std::vector<double>& row) {
 void History::write_texts(const std::vector<std::string>& row) {
   PERIMORPH_ASSERT(row.size() == n_columns_, "{}: {} values for {} columns", file_, row.size(), n_columns_);
   errno = 0;
-  stream_ << line(row) << std::flush;
+  append(line(row));
   if (!stream_) {
     throw base::ComputationError(fmt::format("{}: the history cannot be written: {}", file_, std::strerror(errno)));
   }
+}
+
+void History::check() const {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file_, error);
+  if (!error && static_cast<base::GlobalId>(size) == extent_.size) return;
+  throw base::ComputationError(
+      fmt::format("{}: it is missing or was changed by something else while the run was writing it", file_));
 }
 
 std::string History::number(double value) {

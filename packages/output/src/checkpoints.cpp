@@ -1,5 +1,6 @@
 #include "perimorph/output/checkpoints.hpp"
 
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <chrono>
 #include <sstream>
 
@@ -13,7 +14,8 @@ using base::GlobalId;
 
 namespace {
 
-constexpr GlobalId current_format = 2;
+constexpr GlobalId current_format = 3;
+constexpr int solves_between = 20;  // states within an increment from which it goes on to the last bit
 constexpr const char *format_name = "format", *case_name = "case";
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -30,6 +32,12 @@ std::pair<std::string, std::string> first_difference(const std::string& one, con
   return {line_a, line_b};
 }
 
+template <class DataSets, class Files>
+void describe_files(DataSets& sets, Files& files, const char* name, const char* name_of_names) {
+  sets.records(name, files, &io::FileExtent::size, &io::FileExtent::checksum);
+  sets.texts(name_of_names, files, &io::FileExtent::name);
+}
+
 template <class DataSets, class State>
 void describe_results(DataSets& sets, State& results) {
   auto& totals = results.totals;
@@ -38,17 +46,31 @@ void describe_results(DataSets& sets, State& results) {
                 totals.solves, totals.iterations);
   sets.list("peaks", results.peaks);
   sets.list("peak_increments", results.peak_increments);
+  describe_files(sets, results.tables, "tables", "table_names");
+  describe_files(sets, results.fields, "field_files", "field_file_names");
+  describe_files(sets, results.bonds, "bond_files", "bond_file_names");
 }
 
 /// What a checkpoint belongs to, but for the case.
-template <class DataSets, class Increment, class Mesh, class Costs>
-void describe_origin(DataSets& sets, Increment& increment, Mesh& mesh, Costs& element_costs) {
-  sets.integers("increment", increment);
+template <class DataSets, class Position, class Increments, class Mesh, class Costs>
+void describe_origin(DataSets& sets, Position& position, Increments& planned_increments, Mesh& mesh,
+                     Costs& element_costs) {
+  sets.integers("increment", position.increment, position.growths, position.damage_iterations, position.is_solved,
+                position.accuracy);
+  sets.integers("planned_increments", planned_increments);
   sets.list("mesh", mesh);
   sets.list("element_costs", element_costs);
 }
 
+io::CheckpointId id_of(const fracture::LoopPosition& position) {
+  return {position.increment, position.damage_iterations};
+}
+
 }  // namespace
+
+std::string solves_of_the_next(const fracture::LoopPosition& position) {
+  return position.damage_iterations == 0 ? "" : fmt::format(", and {} solves of the next", position.damage_iterations);
+}
 
 template <int dim>
 Checkpoints<dim>::Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input,
@@ -59,24 +81,47 @@ Checkpoints<dim>::Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const 
       case_lines_(cases::deciding_lines(input)),
       every_(input.output.checkpoint_every),
       last_increment_(input.loading.increments),
+      planned_increments_(input.loading.increments),
       seconds_(60. * input.output.checkpoint_minutes),
-      last_written_(now()) {}
+      last_remembered_(now()),
+      last_written_(last_remembered_) {}
+
+/// On rank 0: reads one; returns it, or why the run cannot go on from it.
+template <int dim>
+std::variant<io::Checkpoint, std::string> Checkpoints<dim>::try_to_read(io::CheckpointId id) const {
+  io::Checkpoint checkpoint;
+  try {
+    checkpoint = folder_.read(id);
+  } catch (const base::UserError& error) {
+    return error.what();
+  }
+  check_origin(checkpoint);
+  const Teuchos::SerialComm<int> alone;
+  DataSetReader reader(alone, checkpoint);
+  ResultsState results;
+  describe_results(reader, results);
+  for (const auto& file : files_of(results)) {
+    const auto trouble = io::trouble_with(folder_.path(), file);
+    if (trouble.empty()) continue;
+    return fmt::format("{}/{}: it cannot be continued: it {}: {} is of no use without it", folder_.path(), file.name,
+                       trouble, folder_.file(id));
+  }
+  return checkpoint;
+}
 
 /// On rank 0.
 template <int dim>
 io::Checkpoint Checkpoints<dim>::read_newest() const {
-  const auto increments = folder_.increments();
+  const auto all = folder_.list();
   std::string trouble;
-  for (auto newest = increments.rbegin(); newest != increments.rend(); ++newest) {
-    try {
-      return folder_.read(*newest);
-    } catch (const base::UserError& error) {
-      log_->warn("warning: {}", error.what());
-      trouble = error.what();
-    }
+  for (auto newest = all.rbegin(); newest != all.rend(); ++newest) {
+    auto found = try_to_read(*newest);
+    if (auto* checkpoint = std::get_if<io::Checkpoint>(&found)) return std::move(*checkpoint);
+    trouble = std::get<std::string>(found);
+    log_->warn("warning: {}", trouble);
   }
-  if (!trouble.empty()) throw base::UserError(trouble + ", and so are all others: run without --restart");
-  return {};
+  if (trouble.empty()) return {};
+  throw base::UserError(trouble + ", and so are all others: run without --restart");
 }
 
 /// On rank 0.
@@ -109,12 +154,12 @@ std::optional<io::Checkpoint> Checkpoints<dim>::load() {
     return {};
   }
   DataSetReader reader(*comm_, loaded);
-  describe_origin(reader, increment_, loaded_mesh_, element_costs_);
+  describe_origin(reader, position_, planned_increments_, loaded_mesh_, element_costs_);
   if (comm_->getRank() != 0) element_costs_.clear();
   describe_results(reader, results_.emplace());
   results_->seconds_before = results_->seconds;
-  is_on_disk_ = true;
-  log_->info("restart          after increment {}, {} broken bonds", increment_, results_->totals.broken);
+  log_->info("restart          after increment {}, {} broken bonds{}", position_.increment, results_->totals.broken,
+             solves_of_the_next(position_));
   return loaded;
 }
 
@@ -137,45 +182,98 @@ void Checkpoints<dim>::identify(const mesh::Mesh<dim>& whole) {
 template <int dim>
 void Checkpoints<dim>::remove_later() const {
   base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() == 0) folder_.remove_after(increment_);
+    if (comm_->getRank() == 0) folder_.remove_after(id_of(position_));
   });
 }
 
+/// Whether so many seconds have passed since then. The same on all ranks: rank 0 has the clock.
 template <int dim>
-bool Checkpoints<dim>::is_due(int increment) const {
-  const bool is_time = seconds_ > 0. && now() - last_written_ >= seconds_;  // rank 0 has the clock
-  const bool is_by_count = every_ > 0 && increment % every_ == 0;
-  const bool is_by_time = base::max(*comm_, static_cast<GlobalId>(comm_->getRank() == 0 && is_time)) > 0;
-  return is_by_count || is_by_time || increment == last_increment_;
+bool Checkpoints<dim>::have_passed(double seconds, double since) const {
+  const bool is_late = comm_->getRank() == 0 && now() - since >= seconds;
+  return base::max(*comm_, static_cast<GlobalId>(is_late)) > 0;
 }
 
 template <int dim>
-void Checkpoints<dim>::accept(int increment, fracture::Body<dim>& body, const ResultsState& results,
-                              const std::vector<double>& element_costs, bool is_requested) {
-  PERIMORPH_ASSERT(increment > increment_, "increment {} after {}", increment, increment_);
+bool Checkpoints<dim>::is_time() const {
+  return seconds_ > 0. && have_passed(seconds_, last_written_);
+}
+
+/// Whether the way from what is remembered to this position would take some time once more.
+template <int dim>
+bool Checkpoints<dim>::is_worthwhile(const fracture::LoopPosition& position) const {
+  constexpr int some_solves = 10;
+  constexpr double some_seconds = 5.;
+  const int before = position.increment == position_.increment ? position_.damage_iterations : 0;
+  return position.damage_iterations - before >= some_solves || have_passed(some_seconds, last_remembered_);
+}
+
+template <int dim>
+void Checkpoints<dim>::remember(const fracture::LoopPosition& position, const fracture::Body<dim>& body,
+                                const std::vector<double>& element_costs) {
+  element_costs_ = element_costs;
   body_ = body.save();
   owned_elements_ = owned_ids(body.mesh());
-  results_ = results;
-  element_costs_ = element_costs;
-  increment_ = increment;
+  last_remembered_ = now();
+  position_ = position;
   is_on_disk_ = false;
-  if (is_due(increment) || is_requested) write();
-  if (every_ > 0 && increment % every_ == 0) body.forget_solves();
 }
 
 template <int dim>
-void Checkpoints<dim>::write() {
-  if (increment_ == 0 || is_on_disk_) return;
-  PERIMORPH_ASSERT(results_.has_value(), "increment {} has no results", increment_);
+void Checkpoints<dim>::accept(int increment, fracture::Body<dim>& body, Results<dim>& results,
+                              const std::vector<double>& element_costs, bool is_requested) {
+  PERIMORPH_ASSERT(increment > position_.increment, "increment {} after {}", increment, position_.increment);
+  remember({increment}, body, element_costs);
+  results_ = results.state();
+  const bool is_by_count = every_ > 0 && increment % every_ == 0;
+  const bool is_due = is_by_count || increment == last_increment_ || is_requested;
+  if (is_time() || is_due) write(results);
+  if (is_by_count) body.forget_solves();
+}
+
+template <int dim>
+void Checkpoints<dim>::solved(const fracture::LoopPosition& position, fracture::Body<dim>& body, Results<dim>& results,
+                              const std::vector<double>& element_costs, bool is_needed, bool is_requested) {
+  const bool is_due = is_time() || is_requested;
+  const bool is_exact = every_ > 0;
+  const bool is_kept =
+      is_exact ? position.damage_iterations % solves_between == 0 : (is_due || is_needed) && is_worthwhile(position);
+  if (is_kept && !(id_of(position) == id_of(position_))) {
+    remember(position, body, element_costs);
+    results_->seconds = results.state().seconds;
+  }
+  if (is_kept && is_exact) {
+    body.forget_solves();
+    body.renew_forces();
+  }
+  if (is_due) write(results);
+}
+
+/// On rank 0: what was removed or cut while the run went on would be missed by the next one.
+template <int dim>
+void Checkpoints<dim>::check_results() const {
+  for (const auto& file : files_of(*results_)) {
+    const auto trouble = io::trouble_with(folder_.path(), {file.name, file.size});
+    if (trouble.empty()) continue;
+    throw base::ComputationError(fmt::format("{}/{}: it {}: something else has changed it while the run went on",
+                                             folder_.path(), file.name, trouble));
+  }
+}
+
+template <int dim>
+void Checkpoints<dim>::write(Results<dim>& results) {
+  if (is_on_disk_) return;
+  PERIMORPH_ASSERT(results_.has_value(), "increment {} has no results", position_.increment);
+  results.bring_to_disk();
   auto checkpoint = gather_state(*comm_, body_, owned_elements_);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
+    check_results();
     DataSetWriter writer(checkpoint);
     writer.integers(format_name, current_format);
     checkpoint.texts[case_name] = case_lines_;
-    describe_origin(writer, increment_, mesh_identity_, element_costs_);
+    describe_origin(writer, position_, planned_increments_, mesh_identity_, element_costs_);
     describe_results(writer, *results_);
-    folder_.write(increment_, checkpoint);
+    folder_.write(id_of(position_), checkpoint);
   });
   is_on_disk_ = true;
   last_written_ = now();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,12 @@ class DataSetWriter {
   void arrays(const char* name, const std::vector<Record>& records, Array Record::*member) {
     auto& values = checkpoint_.numbers[name];
     for (const auto& record : records) values.insert(values.end(), (record.*member).begin(), (record.*member).end());
+  }
+  /// A text in each record; no text holds a zero.
+  template <class Record>
+  void texts(const char* name, const std::vector<Record>& records, std::string Record::*member) {
+    auto& all = checkpoint_.texts[name];
+    for (const auto& record : records) all += record.*member + '\0';
   }
 
  private:
@@ -82,6 +89,11 @@ class DataSetReader {
     for (auto& record : records) {
       for (auto& number : record.*member) number = *value++;
     }
+  }
+  template <class Record>
+  void texts(const char* name, std::vector<Record>& records, std::string Record::*member) {
+    std::istringstream all(base::broadcast(comm_, comm_.getRank() == 0 ? checkpoint_.texts.at(name) : ""));
+    for (auto& record : records) std::getline(all, record.*member, '\0');
   }
 
  private:

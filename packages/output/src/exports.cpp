@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "component_names.hpp"
+#include "open_table.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/io/bond_file.hpp"
 
@@ -50,9 +51,8 @@ std::set<std::pair<GlobalId, GlobalId>> sides_in(const std::string& file) {
   std::getline(table, row);  // names of the columns
   while (std::getline(table, row)) {
     long long first = 0, second = 0;
-    if (std::sscanf(row.c_str(), "%*d,%lld,%lld", &first, &second) != 2) {
-      throw base::UserError(fmt::format("{}: it cannot be continued: \"{}\" names no two elements", file, row));
-    }
+    const int n_read = std::sscanf(row.c_str(), "%*d,%lld,%lld", &first, &second);
+    PERIMORPH_ASSERT(n_read == 2, "{}: \"{}\" names no two elements", file, row);
     sides.insert({first - 1, second - 1});
   }
   return sides;
@@ -149,7 +149,7 @@ io::BondModel<dim> model_of(std::vector<PointRecord<dim>> points, std::vector<Bo
 
 template <int dim>
 Exports<dim>::Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const cases::Case& input,
-                      const std::string& folder, int increment)
+                      const std::string& folder, int increment, const std::optional<ResultsState>& earlier)
     : comm_(comm),
       folder_(folder),
       probes_(*comm, mesh, input.output.probes),
@@ -157,26 +157,48 @@ Exports<dim>::Exports(const Teuchos::RCP<const base::Comm>& comm, const mesh::Me
       bond_increments_(input.output.bond_increments),
       records_crack_(input.output.records_crack) {
   base::on_all_ranks(*comm, [&] {
-    if (comm_->getRank() == 0) open_tables(increment);
+    if (comm_->getRank() != 0) return;
+    open_tables(earlier);
+    remove_bonds_after(folder_, increment);
   });
 }
 
 template <int dim>
-void Exports<dim>::open_tables(int increment) {
-  using Rows = io::History::Rows;
-  const auto path_of = [&](const char* name) { return (std::filesystem::path(folder_) / name).string(); };
-  const auto table = [&](const char* name, const Texts& columns, Rows rows = Rows::in_each_increment) {
-    const std::string file = path_of(name);
-    return std::make_unique<io::History>(increment > 0 ? io::History::resume(file, columns, increment, rows)
-                                                       : io::History(file, columns));
+void Exports<dim>::open_tables(const std::optional<ResultsState>& earlier) {
+  const auto table = [&](const char* name, const Texts& columns) {
+    return open_table(folder_, name, columns, earlier);
   };
   if (!probes_.places().empty()) probe_table_ = table("probes.csv", probe_columns<dim>());
   if (records_crack_) {
     crack_table_ = table("crack.csv", crack_columns<dim>());
-    path_table_ = table("crack_path.csv", path_columns<dim>(), Rows::in_some);
-    known_sides_ = sides_in(path_of("crack_path.csv"));
+    path_table_ = table("crack_path.csv", path_columns<dim>());
+    known_sides_ = sides_in((std::filesystem::path(folder_) / "crack_path.csv").string());
   }
-  remove_bonds_after(folder_, increment);
+  if (earlier) bond_files_ = earlier->bonds;
+  n_bond_files_on_disk_ = bond_files_.size();
+}
+
+/// Those that there are.
+template <int dim>
+std::vector<const io::History*> Exports<dim>::tables() const {
+  std::vector<const io::History*> tables = {probe_table_.get(), crack_table_.get(), path_table_.get()};
+  tables.erase(std::remove(tables.begin(), tables.end(), nullptr), tables.end());
+  return tables;
+}
+
+template <int dim>
+void Exports<dim>::note_files(ResultsState& state) const {
+  for (const auto* table : tables()) state.tables.push_back(table->extent());
+  state.bonds = bond_files_;
+}
+
+template <int dim>
+void Exports<dim>::bring_to_disk() {
+  const auto bring = [&](const io::FileExtent& file) {
+    io::bring_to_disk((std::filesystem::path(folder_) / file.name).string());
+  };
+  for (const auto* table : tables()) bring(table->extent());
+  for (; n_bond_files_on_disk_ < bond_files_.size(); ++n_bond_files_on_disk_) bring(bond_files_[n_bond_files_on_disk_]);
 }
 
 template <int dim>
@@ -186,6 +208,9 @@ void Exports<dim>::accept(int increment, const Body<dim>& body) {
   if (std::find(bond_increments_.begin(), bond_increments_.end(), increment) != bond_increments_.end()) {
     write_bonds(increment, body);
   }
+  base::on_all_ranks(*comm_, [&] {
+    for (const auto* table : tables()) table->check();
+  });
 }
 
 template <int dim>
@@ -231,11 +256,14 @@ void Exports<dim>::record_crack(int increment, const Body<dim>& body) {
 }
 
 template <int dim>
-void Exports<dim>::write_bonds(int increment, const Body<dim>& body) const {
+void Exports<dim>::write_bonds(int increment, const Body<dim>& body) {
   const auto points = base::gather_on_root(*comm_, own_bonded_points(body));
   const auto bonds = base::gather_on_root(*comm_, own_bonds(body));
   base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() == 0) io::write_bonds(bonds_file(folder_, increment), model_of<dim>(points, bonds));
+    if (comm_->getRank() != 0) return;
+    const std::filesystem::path file = bonds_file(folder_, increment);
+    io::write_bonds(file.string(), model_of<dim>(points, bonds));
+    bond_files_.push_back({file.filename(), static_cast<GlobalId>(std::filesystem::file_size(file))});
   });
 }
 

@@ -1,5 +1,6 @@
 #include "perimorph/output/field_series.hpp"
 
+#include <filesystem>
 #include <functional>
 
 #include "component_names.hpp"
@@ -67,18 +68,39 @@ typename io::ExodusSeries<dim>::Names variable_names(std::vector<std::string> gl
 
 template <int dim>
 FieldSeries<dim>::FieldSeries(const Teuchos::RCP<const base::Comm>& comm, SeriesOptions options,
-                              const std::optional<io::SeriesExtent>& earlier)
-    : comm_(comm), is_spread_(options.is_spread), is_new_(!earlier) {
+                              const io::SeriesExtent& earlier, std::vector<io::FileExtent> earlier_files)
+    : comm_(comm), is_spread_(options.is_spread), files_(std::move(earlier_files)), n_closed_files_(files_.size()) {
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0 && !is_spread_) return;
     std::optional<io::SpreadPart> part;
     if (is_spread_) part = io::SpreadPart{comm_->getRank(), comm_->getSize()};
     series_ = std::make_unique<io::ExodusSeries<dim>>(options.file, options.title, variable_names<dim>(options.globals),
                                                       options.information, part);
-    if (!earlier) return;
-    series_->resume(*earlier);
+    series_->resume(earlier);
     if (comm_->getRank() == 0) series_->remove_the_rest();
   });
+}
+
+template <int dim>
+void FieldSeries<dim>::bring_to_disk() {
+  base::on_all_ranks(*comm_, [&] {
+    if (series_) series_->bring_to_disk();
+  });
+}
+
+/// Of the files that are being written.
+template <int dim>
+void FieldSeries<dim>::note_sizes() {
+  std::vector<GlobalId> own;
+  base::on_all_ranks(*comm_, [&] {
+    if (series_) own.push_back(series_->current_size());
+  });
+  const auto sizes = base::gather_on_root(*comm_, own);
+  files_.resize(n_closed_files_);
+  for (std::size_t rank = 0; rank < sizes.size(); ++rank) {
+    const std::filesystem::path file = series_->file(series_->extent().files, static_cast<int>(rank));
+    files_.push_back({file.filename(), sizes[rank]});
+  }
 }
 
 template <int dim>
@@ -87,10 +109,7 @@ void FieldSeries<dim>::start_file(const Body<dim>& body, const std::vector<mesh:
       is_spread_ ? spread_layout(*comm_, body, broken_surface) : gathered_layout(*comm_, body, broken_surface);
   nodes_ = std::move(layout.nodes);
   element_place_ = std::move(layout.element_place);
-  base::on_all_ranks(*comm_, [&] {
-    if (is_new_ && comm_->getRank() == 0) series_->remove_the_rest();
-  });
-  is_new_ = false;
+  n_closed_files_ = files_.size();
   base::on_all_ranks(*comm_, [&] {
     if (series_) series_->start(layout.model);
   });
@@ -119,6 +138,7 @@ void FieldSeries<dim>::write(const Body<dim>& body, std::vector<double> globals)
   base::on_all_ranks(*comm_, [&] {
     if (series_) series_->write(step);
   });
+  note_sizes();
 }
 
 /// A component of the displacement in the order of the file's nodes, on ranks that write.

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "open_table.hpp"
+
 namespace perimorph::output {
 
 using base::GlobalId;
@@ -39,20 +41,14 @@ std::vector<Reaction> reactions_after(const std::vector<std::string>& groups,
   return reactions;
 }
 
-io::History table(const std::string& folder, std::vector<std::string> columns, int increment, bool is_continued) {
-  const std::string file = (std::filesystem::path(folder) / "history.csv").string();
-  columns.insert(columns.begin(), "increment");
-  return is_continued ? io::History::resume(file, columns, increment) : io::History(file, columns);
-}
-
 }  // namespace
 
 template <int dim>
 Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
-                      ConsoleOptions console, base::Profile& profile, int increment,
-                      const std::optional<ResultsState>& earlier)
+                      ConsoleOptions console, base::Profile& profile, const std::optional<ResultsState>& earlier)
     : comm_(comm),
       profile_(profile),
+      folder_(folder),
       earlier_seconds_(earlier ? earlier->seconds_before : 0.),
       output_every_(input.output.every),
       last_increment_(input.loading.increments),
@@ -61,21 +57,23 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::C
       columns_(history_columns(reactions_)),
       console_(std::move(console), profile, last_increment_, input.peridynamics.horizon,
                earlier ? earlier->seconds - earlier->seconds_before : 0.) {
-  base::on_all_ranks(*comm, [&] {
-    if (comm_->getRank() != 0) return;
-    history_ = std::make_unique<io::History>(table(folder, names_of(columns_), increment, earlier.has_value()));
-  });
-  std::optional<io::SeriesExtent> extent;
-  if (earlier) extent = earlier->series;
   const std::string file = (std::filesystem::path(folder) / (input.name + ".e")).string();
   fields_ = std::make_unique<FieldSeries<dim>>(
       comm, SeriesOptions{file, input.title, names_of(columns_), lines_of(input.resolved), input.output.spread_files},
-      extent);
+      earlier ? earlier->series : io::SeriesExtent{}, earlier ? earlier->fields : std::vector<io::FileExtent>{});
+  base::on_all_ranks(*comm, [&] {
+    if (comm_->getRank() != 0) return;
+    std::vector<std::string> columns = names_of(columns_);
+    columns.insert(columns.begin(), "increment");
+    history_ = open_table(folder, "history.csv", columns, earlier);
+  });
 }
 
 template <int dim>
 ResultsState Results<dim>::state() const {
-  ResultsState state{seconds(), earlier_seconds_, fields_->extent(), totals_, {}, {}};
+  ResultsState state{seconds(), earlier_seconds_, fields_->extent(), totals_, {}, {}, {}, fields_->files(), {}};
+  if (history_) state.tables.push_back(history_->extent());
+  if (exports_) exports_->note_files(state);
   for (const auto& r : reactions_) {
     state.peaks.push_back(r.peak);
     state.peak_increments.push_back(r.peak_increment);
@@ -123,8 +121,21 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
     std::vector<double> row = {static_cast<double>(increment)};
     row.insert(row.end(), values.begin(), values.end());
     history_->write(row);
+    history_->check();
   });
   console_.show(record, newly_broken);
+}
+
+template <int dim>
+void Results<dim>::bring_to_disk() {
+  const auto timer = profile_.measure(base::Phase::write);
+  fields_->bring_to_disk();
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() != 0) return;
+    io::bring_to_disk((std::filesystem::path(folder_) / history_->extent().name).string());
+    if (exports_) exports_->bring_to_disk();
+    io::bring_to_disk(folder_);
+  });
 }
 
 template class Results<2>;

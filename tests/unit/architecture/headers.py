@@ -36,7 +36,8 @@ def first_include(source):
 def compile_commands():
     """{source: command} of all that this build compiles; the fuzz tests compile some once more, with sanitizers."""
     entries = json.loads((BUILD / "compile_commands.json").read_text())
-    return {pathlib.Path(entry["file"]): entry["command"] for entry in entries if "tests/fuzz/" not in entry["command"]}
+    return {pathlib.Path(entry["file"]): entry["command"] for entry in entries
+            if entry["file"].endswith(".cpp") and "tests/fuzz/" not in entry["command"]}
 
 
 def command_for(header, commands):

@@ -122,5 +122,13 @@ TEST(DecidingListing, HasAllButWhatMayChange) {
             "/Wheels/rear/Radius = 0.5\n");
 }
 
+TEST(DecidingListing, ATextWithSeveralLinesLooksLikeNoOtherParameter) {
+  auto list = values();
+  list.set("Color", std::string("Red\n/Lamps = {3, 4, 5}"));
+  EXPECT_THAT(deciding_listing(list, schema()), testing::HasSubstr("/Color = Red\\n/Lamps = {3, 4, 5}\n/Lamps ="));
+  list.set("Color", std::string("Red\\n"));
+  EXPECT_THAT(deciding_listing(list, schema()), testing::HasSubstr("/Color = Red\\\\n\n"));
+}
+
 }  // namespace
 }  // namespace perimorph::input

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -114,27 +115,65 @@ TEST(History, TextsStandAmongNumbers) {
   EXPECT_EQ(text_of(file), "increment,probe\n1,\"tip, left\"\n");
 }
 
-/// A file that an earlier run has left, and what is left of it when a run goes on after an increment.
-std::string resumed(const std::string& rows, int increment, History::Rows kind = History::Rows::in_each_increment) {
+TEST(History, GoesOnWhereItWasAndCutsOffWhatFollowed) {
   const tests::TemporaryDirectory directory;
   const std::string file = directory.file("history.csv");
-  std::ofstream(file) << "increment,x\n" << rows;
-  History::resume(file, {"increment", "x"}, increment, kind).write({99, 1});
-  return text_of(file);
+  io::FileExtent then;
+  {
+    History history(file, {"increment", "x"});
+    history.write({1, 5});
+    history.write({2, 7});
+    then = history.extent();
+    history.write({3, 9});
+  }
+  std::ofstream(file, std::ios::app) << "4";  // cut off by a kill
+  auto history = History::resume(file, {"increment", "x"}, then);
+  history.write({3, 10});
+  history.check();
+  EXPECT_EQ(text_of(file), "increment,x\n1,5\n2,7\n3,10\n");
+  EXPECT_EQ(io::trouble_with(directory.file(""), history.extent()), "");
 }
 
-TEST(History, GoesOnAfterAllRowsOfAnIncrement) {
-  EXPECT_EQ(resumed("1,5\n1,6\n2,7\n2,8\n3,9\n", 2), "increment,x\n1,5\n1,6\n2,7\n2,8\n99,1\n");
+TEST(History, WhatIsNotAsItWasLeftIsTold) {
+  const tests::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv"), folder = directory.file("");
+  io::FileExtent then;
+  {
+    History history(file, {"increment", "x"});
+    history.write({1, 5});
+    then = history.extent();
+  }
+  EXPECT_EQ(io::trouble_with(folder, then), "");
+  std::ofstream(file, std::ios::app) << "2,6\n";
+  EXPECT_EQ(io::trouble_with(folder, then), "");  // what follows does not count
+  std::ofstream(file) << "increment,x\n1,6\n";
+  EXPECT_EQ(io::trouble_with(folder, then), "is not what it was");
+  std::ofstream(file) << std::string(static_cast<std::size_t>(then.size), '\0');
+  EXPECT_EQ(io::trouble_with(folder, then), "is not what it was");
+  std::ofstream(file) << "increment,x\n1,";
+  EXPECT_EQ(io::trouble_with(folder, then), "is shorter than it was");
+  std::filesystem::remove(file);
+  EXPECT_EQ(io::trouble_with(folder, then), "is missing");
 }
 
-TEST(History, ALineThatWasCutOffIsNoRow) {
-  EXPECT_EQ(resumed("1,5\n11,6\n12,7\n1", 12), "increment,x\n1,5\n11,6\n12,7\n99,1\n");  // of 13
+TEST(History, ATableThatIsRemovedOrChangedMeanwhileStopsTheComputation) {
+  const tests::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+  History history(file, {"increment"});
+  history.write({1});
+  std::ofstream(file, std::ios::app) << "somebody else's\n";
+  EXPECT_THROW(history.check(), base::ComputationError);
+  std::filesystem::remove(file);
+  const std::string message = message_of<base::ComputationError>([&] { history.check(); });
+  EXPECT_THAT(message, AllOf(StartsWith(file + ": it is missing"), HasSubstr("while the run was writing it")));
 }
 
-TEST(History, OnlyATableWithRowsInEachIncrementMustReachTheIncrement) {
-  const std::string message = message_of<base::UserError>([] { resumed("1,5\n", 2); });
-  EXPECT_THAT(message, HasSubstr("history.csv: it cannot be continued: increment 2 is missing"));
-  EXPECT_EQ(resumed("1,5\n", 2, History::Rows::in_some), "increment,x\n1,5\n99,1\n");
+TEST(History, OneWithOtherColumnsIsNotContinued) {
+  const tests::TemporaryDirectory directory;
+  const std::string file = directory.file("history.csv");
+  const auto extent = History(file, {"increment", "x"}).extent();
+  const std::string message = message_of<base::UserError>([&] { History::resume(file, {"increment", "y"}, extent); });
+  EXPECT_THAT(message, HasSubstr("history.csv: it cannot be continued: it is missing or has other columns"));
 }
 
 }  // namespace

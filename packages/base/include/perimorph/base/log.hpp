@@ -11,12 +11,13 @@ namespace perimorph::base {
 
 using Log = std::shared_ptr<spdlog::logger>;
 
-/// Rank 0's messages to the terminal (unless quiet; errors always) and, if a file is named, all of them to that file,
-/// anew or after what it holds. The other ranks' logger is silent. Local.
-/// @param file a path, or "" for none
-/// @param append whether messages follow what the file holds
-/// @throws UserError if the file cannot be written (on rank 0).
-Log make_log(const Comm& comm, bool quiet, const std::string& file = "", bool append = false);
+/// Rank 0's messages to the terminal (unless quiet; errors always); the other ranks' logger is silent. Local.
+Log make_log(const Comm& comm, bool quiet);
+
+/// All messages, those before as well, go to a file too, anew or after what it holds. Local, on rank 0.
+/// @param log made by make_log
+/// @throws UserError if the file cannot be written.
+void open_file(const Log& log, const std::string& file, bool append);
 
 /// A logger that says nothing, for tests and libraries.
 Log silent_log();

@@ -15,10 +15,12 @@ struct LoopLimits {
 struct LoopPosition {
   int increment = 0;
   int growths = 0, damage_iterations = 0;
+  bool is_solved = false;  ///< to this accuracy, and nothing has broken since; otherwise that is what comes next
+  Accuracy accuracy = Accuracy::breaking;
 };
 
-/// Why the loop returns: all is done; it was asked to stop; or the mesh is to be partitioned anew, after which the loop
-/// goes on from its position with a body restored from the state of this one.
+/// Why the loop returns: all is done; it was asked to stop; or the mesh is to be partitioned anew. After the latter two
+/// it can go on from its position, with a body restored from the state of this one.
 enum class LoopEnd { done, stopped, rebalance };
 
 /// Hears of what happens in the loop, and may interrupt it. All calls are collective, and all ranks answer alike.
@@ -33,8 +35,9 @@ class LoopObserver {
   /// The forces balance; what is overstretched has not broken yet.
   virtual void solved(int /*increment*/, const Body<dim>& /*body*/) {}
 
-  /// Whether the loop is to return now, after a solve.
-  virtual bool stop_requested() { return false; }
+  /// Whether the loop is to return now, after a solve. From this position it can go on with a body restored from the
+  /// state of this one, too.
+  virtual bool stop_requested(const LoopPosition& /*position*/, Body<dim>& /*body*/) { return false; }
 
   /// Whether the loop is to return for a new partition, after a change of topology.
   virtual bool rebalance_wanted(const Body<dim>& /*body*/) { return false; }

@@ -57,6 +57,9 @@ class Body {
   /// What comes depends on the state only, and not on what the solver has done before. Local.
   void forget_solves() { equilibrium_.linear_solver().forget(); }
 
+  /// After a solve: nor does it depend on the order in which forces have been summed up.
+  void renew_forces();
+
   Energies energies() const;
 
   /// Where crack faces have passed furthest through each other, since there is no contact.

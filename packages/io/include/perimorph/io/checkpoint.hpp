@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "perimorph/base/algebra.hpp"
@@ -15,27 +16,40 @@ struct Checkpoint {
   std::map<std::string, std::string> texts;
 };
 
-/// Checkpoints of one folder: HDF5 files "checkpoint-000012.h5", named after their increment. A file is written beside
-/// its final name, brought to the disk and then renamed, so that one with this name is whole. Local (rank 0).
+/// When a checkpoint was taken: after an increment, and after so many solves of the next one, if any. Ordered by time.
+struct CheckpointId {
+  int increment = 0, solves = 0;
+  friend bool operator<(const CheckpointId& a, const CheckpointId& b) {
+    return std::tie(a.increment, a.solves) < std::tie(b.increment, b.solves);
+  }
+  friend bool operator==(const CheckpointId& a, const CheckpointId& b) { return !(a < b) && !(b < a); }
+};
+
+/// Checkpoints of one folder: HDF5 files "checkpoint-000012.h5", named after their increment, and within the next one
+/// "checkpoint-000012_000040.h5". A file is written beside its final name, brought to the disk and then renamed, so
+/// that one with this name is whole; a checksum of all its bytes stands at its end. Local (rank 0).
 class CheckpointFolder {
  public:
   explicit CheckpointFolder(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Increments of which there is a file, intact or not, ascending.
-  std::vector<int> increments() const;
+  const std::string& path() const { return folder_; }
 
-  /// The name of an increment's file.
-  std::string file(int increment) const;
+  /// Those of which there is a file, intact or not, ascending.
+  std::vector<CheckpointId> list() const;
 
-  /// Writes a checkpoint and removes all but the last two.
+  /// The name of a checkpoint's file.
+  std::string file(CheckpointId id) const;
+
+  /// Writes a checkpoint, waits until the disk has it, and removes all but the last two.
   /// @throws ComputationError naming the file, if it cannot be written; nothing half-written is left.
-  void write(int increment, const Checkpoint& checkpoint) const;
+  void write(CheckpointId id, const Checkpoint& checkpoint) const;
 
   /// @throws UserError naming the file, if it cannot be read or is damaged.
-  Checkpoint read(int increment) const;
+  Checkpoint read(CheckpointId id) const;
 
-  /// Removes the files of all increments after this one.
-  void remove_after(int increment) const;
+  /// Removes all after this one, and what a run that was killed has left unfinished; waits until the disk knows.
+  /// @throws ComputationError if the disk fails.
+  void remove_after(CheckpointId id) const;
 
  private:
   std::string folder_;

@@ -65,6 +65,13 @@ class ExodusSeries {
 
   SeriesExtent extent() const { return {n_files_, n_steps_}; }
 
+  /// The name of one of its files, from 1; of spread files that rank's.
+  std::string file(int number, int rank) const;
+
+  /// Of the file that is being written, or of this rank's part, [bytes].
+  /// @throws ComputationError if it is gone.
+  base::GlobalId current_size() const;
+
   /// Goes on with a series that an earlier run has left: start() begins the file after this extent.
   void resume(const SeriesExtent& extent);
 
@@ -72,6 +79,9 @@ class ExodusSeries {
   /// been written, all that an older series has left. On rank 0, before any rank goes on.
   /// @throws UserError naming the file, if steps beyond the extent cannot be removed.
   void remove_the_rest() const;
+
+  /// Waits until the disk has all that was written. @throws ComputationError naming the file, if it fails.
+  void bring_to_disk();
 
   /// Closes the current file, if any, and starts the next one with this model.
   /// @throws ComputationError naming the file, if it cannot be written.
@@ -82,13 +92,15 @@ class ExodusSeries {
   void write(const ExodusStep& step);
 
  private:
-  std::string file_, title_, part_ending_;
+  std::string file_, title_;
+  std::optional<SpreadPart> part_;
   Names names_;
   std::vector<std::string> information_;
   int exodus_id_ = -1;
   int n_files_ = 0, n_steps_ = 0;
+  int n_on_disk_ = 0;  ///< files to which nothing is added, and that a power cut does not harm any more
   std::vector<int> block_sizes_, block_ids_;
-  std::string current_file() const;
+  std::string own_file(int number) const;
   void close();
   void check(int status, const char* what) const;
 };

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "perimorph/io/disk.hpp"
+
 namespace perimorph::io {
 
 /// A table of what happened, increment by increment, as CSV (history.csv, probes.csv, ...): a header and rows that
@@ -13,14 +15,15 @@ class History {
   /// @throws UserError naming the file, if it cannot be written.
   History(const std::string& file, const std::vector<std::string>& columns);
 
-  /// Whether each increment has rows, or only some have.
-  enum class Rows { in_each_increment, in_some };
+  /// Goes on with a table that an earlier run has left: what follows after that extent is cut off.
+  /// @throws UserError naming the file, if it cannot be read or written, or has other columns.
+  static History resume(const std::string& file, const std::vector<std::string>& columns, const FileExtent& extent);
 
-  /// Goes on with a history that an earlier run has left: rows after that increment are cut off.
-  /// @throws UserError naming the file, if it cannot be read or written, has other columns or ends before the
-  /// increment.
-  static History resume(const std::string& file, const std::vector<std::string>& columns, int increment,
-                        Rows rows = Rows::in_each_increment);
+  /// How far it has come.
+  const FileExtent& extent() const { return extent_; }
+
+  /// @throws ComputationError naming the file, if it is not as it was written: removed, or changed by somebody else.
+  void check() const;
 
   /// Integral values are written as integers, others with 10 significant digits.
   /// @throws ComputationError naming the file, if it cannot be written; Bug if the number of values is wrong.
@@ -33,11 +36,14 @@ class History {
   static std::string number(double value);
 
  private:
-  History(std::string file, std::size_t n_columns);  // appends
+  History(const std::string& file, std::size_t n_columns, const FileExtent& extent);  // appends
 
   std::string file_;
   std::size_t n_columns_;
+  FileExtent extent_;
   std::ofstream stream_;
+
+  void append(const std::string& text);
 };
 
 }  // namespace perimorph::io

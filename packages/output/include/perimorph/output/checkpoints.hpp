@@ -2,16 +2,21 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "perimorph/base/log.hpp"
 #include "perimorph/cases/case.hpp"
+#include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/output/results.hpp"
 #include "perimorph/output/state_transfer.hpp"
 
 namespace perimorph::output {
 
-/// A run's checkpoints: the state after the last accepted increment, kept in memory, and brought to disk when it is
-/// due, requested or about to be lost. They do not depend on the number of ranks.
+/// What follows "after increment 12", such as ", and 40 solves of the next".
+std::string solves_of_the_next(const fracture::LoopPosition& position);
+
+/// A run's checkpoints: the state after the last accepted increment or within the next one, kept in memory, and brought
+/// to disk when it is due, requested or about to be lost. They do not depend on the number of ranks.
 template <int dim>
 class Checkpoints {
  public:
@@ -19,56 +24,85 @@ class Checkpoints {
   Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
               base::Log log);
 
-  /// Reads the newest intact checkpoint and returns the body's state in it (share_state), if there is any. Collective.
-  /// @throws UserError if all are damaged, or if it belongs to another case: names what differs.
+  /// Reads the newest checkpoint that is intact and that the results in the folder support, and returns the body's
+  /// state in it (share_state), if there is any. Collective.
+  /// @throws UserError if there are only others, or if it belongs to another case: names what differs.
   std::optional<io::Checkpoint> load();
 
   /// Which mesh this run has. The mesh is whole on rank 0. Collective.
   /// @throws UserError if the checkpoint that was loaded belongs to another.
   void identify(const mesh::Mesh<dim>& whole);
 
-  /// The increment that was loaded or accepted last, 0 if there was none, and what the results had come to. Local.
-  int increment() const { return increment_; }
+  /// Where the run is: loaded or remembered last. Local.
+  const fracture::LoopPosition& position() const { return position_; }
+  int increment() const { return position_.increment; }
+
+  /// What the results had come to at the last accepted increment; none: nothing has been written yet. Local.
   const std::optional<ResultsState>& results() const { return results_; }
+
+  /// How many increments the run was to have when it began. Local.
+  int planned_increments() const { return planned_increments_; }
 
   /// The cost of each element when the checkpoint that was loaded was written; on rank 0, {} if none was. Local.
   const std::vector<double>& element_costs() const { return element_costs_; }
 
-  /// Removes the files of later increments than that one, which an earlier run has left. Collective.
+  /// Removes all that are later than the position, which an earlier run has left. Collective.
   void remove_later() const;
+
+  /// The results before the first increment: from then on there is something to go on from. Local.
+  void begin(const ResultsState& results) {
+    if (!results_) results_ = results;
+  }
 
   /// Remembers an accepted increment, and writes it if it is due. At every /Output/Checkpoint Every increments, the run
   /// itself goes on as one that starts from there would, to the last bit. Collective.
   /// @param element_costs by which the mesh is partitioned now, on rank 0
   /// @param is_requested it is due in any case; the same on all ranks
   /// @throws ComputationError if it is due and cannot be written.
-  void accept(int increment, fracture::Body<dim>& body, const ResultsState& results,
-              const std::vector<double>& element_costs, bool is_requested);
+  void accept(int increment, fracture::Body<dim>& body, Results<dim>& results, const std::vector<double>& element_costs,
+              bool is_requested);
 
-  /// Writes what is remembered, if that is not on disk already. Collective. @throws ComputationError if it cannot be.
-  void write();
+  /// Within an increment, after a solve: writes the state if it is due by the clock or requested. With
+  /// /Output/Checkpoint Every it is that of the last twentieth solve, after which the run goes on as one that starts
+  /// from there would, to the last bit; otherwise that of this solve, if it has taken ten of them or some seconds to
+  /// get there. Collective.
+  /// @param element_costs as for accept
+  /// @param is_needed the state is about to be lost; the same on all ranks, as is_requested
+  /// @throws ComputationError if it is due and cannot be written.
+  void solved(const fracture::LoopPosition& position, fracture::Body<dim>& body, Results<dim>& results,
+              const std::vector<double>& element_costs, bool is_needed, bool is_requested);
+
+  /// Writes what is remembered, if that is not on disk already, after all results that it counts on. Collective.
+  /// @throws ComputationError if it cannot be written.
+  void write(Results<dim>& results);
 
  private:
   Teuchos::RCP<const base::Comm> comm_;
   base::Log log_;
   io::CheckpointFolder folder_;
   std::string case_lines_;
-  int every_, last_increment_;
+  int every_, last_increment_, planned_increments_;
   double seconds_;                                           ///< between two of them
   std::vector<base::GlobalId> mesh_identity_, loaded_mesh_;  ///< of this run; of the checkpoint that was loaded
 
-  int increment_ = 0;        ///< loaded or remembered last
-  bool is_on_disk_ = false;  ///< that one
+  fracture::LoopPosition position_;  ///< loaded or remembered last
+  bool is_on_disk_ = true;           ///< that one; the beginning needs none
   discretization::SavedState<dim> body_;
   std::vector<base::GlobalId> owned_elements_;  ///< in the order of body_.displacement
   std::optional<ResultsState> results_;
   std::vector<double> element_costs_;
 
-  double last_written_ = 0.;
+  double last_remembered_, last_written_;  ///< [s]
 
   io::Checkpoint read_newest() const;
+  std::variant<io::Checkpoint, std::string> try_to_read(io::CheckpointId id) const;
   void check_origin(const io::Checkpoint& checkpoint) const;
-  bool is_due(int increment) const;
+  void check_results() const;
+  bool have_passed(double seconds, double since) const;
+  bool is_time() const;
+  bool is_worthwhile(const fracture::LoopPosition& position) const;
+  void remember(const fracture::LoopPosition& position, const fracture::Body<dim>& body,
+                const std::vector<double>& element_costs);
 };
 
 }  // namespace perimorph::output

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "perimorph/fracture/body.hpp"
+#include "perimorph/io/disk.hpp"
 #include "perimorph/io/exodus.hpp"
 
 namespace perimorph::output {
@@ -26,12 +26,19 @@ struct SeriesOptions {
 template <int dim>
 class FieldSeries {
  public:
-  /// Goes on after an earlier series, if there is one. Collective. @throws UserError if it cannot be continued.
-  FieldSeries(const Teuchos::RCP<const base::Comm>& comm, SeriesOptions options,
-              const std::optional<io::SeriesExtent>& earlier);
+  /// Goes on after an earlier series, of which those files are left; what is left of others is removed. Collective.
+  /// @throws UserError if it cannot be continued.
+  FieldSeries(const Teuchos::RCP<const base::Comm>& comm, SeriesOptions options, const io::SeriesExtent& earlier,
+              std::vector<io::FileExtent> earlier_files);
 
   /// How far it has come; on ranks that write. Local.
   io::SeriesExtent extent() const { return series_ ? series_->extent() : io::SeriesExtent{}; }
+
+  /// All files and how far each has come; on rank 0. Local.
+  const std::vector<io::FileExtent>& files() const { return files_; }
+
+  /// Waits until the disk has all that was written. Collective. @throws ComputationError if it fails.
+  void bring_to_disk();
 
   /// Appends a step. Collective. @throws ComputationError if it cannot be written.
   /// @param globals values of the global variables
@@ -39,12 +46,15 @@ class FieldSeries {
 
  private:
   Teuchos::RCP<const base::Comm> comm_;
-  bool is_spread_, is_new_;                        ///< new: what an older series has left is still there
-  std::unique_ptr<io::ExodusSeries<dim>> series_;  ///< on ranks that write
+  bool is_spread_;
+  std::vector<io::FileExtent> files_;                               ///< on rank 0
+  std::size_t n_closed_files_;                                      ///< of them
+  std::unique_ptr<io::ExodusSeries<dim>> series_;                   ///< on ranks that write
   base::GlobalId topology_written_ = 0, broken_sides_written_ = 0;  ///< 0: no file has been started
   std::vector<int> nodes_, element_place_;                          ///< of the file's layout
 
   void start_file(const fracture::Body<dim>& body, const std::vector<mesh::Side>& broken_surface);
+  void note_sizes();
   std::vector<double> on_nodes(const fracture::Body<dim>& body, int component) const;
   std::vector<double> on_elements(const std::vector<double>& own) const;
 };

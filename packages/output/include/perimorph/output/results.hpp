@@ -9,30 +9,20 @@
 #include "perimorph/output/console.hpp"
 #include "perimorph/output/exports.hpp"
 #include "perimorph/output/field_series.hpp"
+#include "perimorph/output/results_state.hpp"
 
 namespace perimorph::output {
-
-/// What results have come to, for a run that goes on after them.
-struct ResultsState {
-  double seconds = 0.;         ///< wall-clock time since the start of the run, [s]
-  double seconds_before = 0.;  ///< of them, before this process was started, [s]
-  io::SeriesExtent series;
-  Totals totals;
-  std::vector<double> peaks;                    ///< of each reaction, [force]
-  std::vector<base::GlobalId> peak_increments;  ///< in which increment
-};
 
 /// Everything a run leaves behind of its accepted increments: a row of history.csv, a line on the terminal, fields, and
 /// what is written on request. Rank 0 writes what it gathers from all; spread files each rank by itself.
 template <int dim>
 class Results {
  public:
-  /// Goes on with the results of an earlier run after that increment, if there are any. Collective.
+  /// Goes on with the results of an earlier run, if there is one; what is left of others gives way. Collective.
   /// @param profile must outlive this
   /// @throws UserError if the folder cannot be written, or the earlier results are not there.
   Results(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
-          ConsoleOptions console, base::Profile& profile, int increment = 0,
-          const std::optional<ResultsState>& earlier = {});
+          ConsoleOptions console, base::Profile& profile, const std::optional<ResultsState>& earlier = {});
 
   /// Accepted increments are recorded by these too. Local.
   void add_exports(std::unique_ptr<Exports<dim>> exports) { exports_ = std::move(exports); }
@@ -41,6 +31,7 @@ class Results {
   ResultsState state() const;
 
   /// Records an increment; fields too if they are due, a bond broke or it is the last. Collective.
+  /// @throws ComputationError if a file cannot be written, or somebody has removed or changed it.
   void accept(int increment, const fracture::Body<dim>& body);
 
   /// What the current increment is at. Local.
@@ -48,12 +39,16 @@ class Results {
     console_.show_progress(increment, body.counts());
   }
 
+  /// Waits until the disk has all files as they are. Collective. @throws ComputationError if it fails.
+  void bring_to_disk();
+
   /// The closing lines: peak and last reaction, counts, profile. Collective.
   void summarize(const fracture::Body<dim>& body) { console_.summarize(*comm_, body.counts(), totals_, reactions_); }
 
  private:
   Teuchos::RCP<const base::Comm> comm_;
   base::Profile& profile_;
+  std::string folder_;
   double earlier_seconds_;  ///< of the run that this one goes on with
   int output_every_, last_increment_;
   Totals totals_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "perimorph/fracture/adaptive_loop.hpp"
+#include "perimorph/io/folder_lock.hpp"
 #include "perimorph/output/checkpoints.hpp"
 #include "perimorph/output/rebalancing.hpp"
 #include "perimorph/output/stop_requests.hpp"
@@ -12,22 +13,38 @@ namespace perimorph::output {
 template <int dim>
 class RunObserver : public fracture::LoopObserver<dim> {
  public:
-  RunObserver(const Teuchos::RCP<const base::Comm>& comm, Results<dim>& results, Checkpoints<dim>& checkpoints,
-              Rebalancing<dim>& rebalancing, StopRequests& requests)
-      : comm_(comm), results_(results), checkpoints_(checkpoints), rebalancing_(rebalancing), requests_(requests) {}
+  /// @param lock of the folder of the results, on rank 0; null on others
+  RunObserver(const Teuchos::RCP<const base::Comm>& comm, const io::FolderLock* lock, Results<dim>& results,
+              Checkpoints<dim>& checkpoints, Rebalancing<dim>& rebalancing, StopRequests& requests)
+      : comm_(comm),
+        lock_(lock),
+        results_(results),
+        checkpoints_(checkpoints),
+        rebalancing_(rebalancing),
+        requests_(requests) {}
 
-  /// @throws base::ComputationError if the disk is full.
+  /// @throws base::ComputationError if the disk is full, or somebody has emptied the folder.
   void accepted(int increment, fracture::Body<dim>& body) override {
+    base::on_all_ranks(*comm_, [&] {
+      if (lock_ != nullptr) lock_->check();
+    });
     results_.accept(increment, body);
-    checkpoints_.accept(increment, body, results_.state(), rebalancing_.element_costs(),
-                        requests_.take_checkpoint_request());
+    checkpoints_.accept(increment, body, results_, rebalancing_.element_costs(), requests_.take_checkpoint_request());
   }
   void solved(int increment, const fracture::Body<dim>& body) override { results_.show_progress(increment, body); }
-  bool stop_requested() override { return requests_.stop_requested(*comm_); }
+
+  /// @throws base::ComputationError if the disk is full.
+  bool stop_requested(const fracture::LoopPosition& position, fracture::Body<dim>& body) override {
+    const bool stops = requests_.stop_requested(*comm_);
+    checkpoints_.solved(position, body, results_, rebalancing_.element_costs(), stops,
+                        requests_.take_checkpoint_request());
+    return stops;
+  }
   bool rebalance_wanted(const fracture::Body<dim>& body) override { return rebalancing_.is_wanted(body); }
 
  private:
   Teuchos::RCP<const base::Comm> comm_;
+  const io::FolderLock* lock_;
   Results<dim>& results_;
   Checkpoints<dim>& checkpoints_;
   Rebalancing<dim>& rebalancing_;

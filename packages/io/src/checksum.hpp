@@ -1,0 +1,18 @@
+#pragma once
+
+#include <zlib.h>
+
+#include <cstdint>
+#include <string_view>
+
+namespace perimorph::io {
+
+/// CRC-32: sees every flipped bit, and every change within 32 bits.
+using Checksum = std::uint32_t;
+
+/// The checksum of some bytes that follow others, whose checksum is known.
+inline Checksum checksum_of(std::string_view bytes, Checksum before = 0) {
+  return static_cast<Checksum>(crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace perimorph::io
