@@ -16,7 +16,7 @@ import netCDF4
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import N, PERIMORPH, ROOT, Plate, settings, text_of
+from fixture import CASE, N, PERIMORPH, ROOT, Plate, changed, msh, settings, text_of
 
 
 class Runs(Plate):
@@ -231,8 +231,17 @@ class UserErrors(Plate):
         self.assertEqual(self.perimorph("rnu", self.case).returncode, 2)
 
 
+def bar_mesh():
+    """12 by 4 squares of 1 between the edges "left" and "right"."""
+    node = lambda i, j: j * 13 + i + 1
+    nodes = [(node(i, j), i, j, 0) for j in range(5) for i in range(13)]
+    elements = [(1, group, [node(i, j), node(i, j + 1)]) for group, i in [(1, 0), (2, 12)] for j in range(4)]
+    elements += [(3, 3, [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]) for j in range(4) for i in range(12)]
+    return msh(['1 1 "left"', '1 2 "right"', '2 3 "body"'], nodes, elements)
+
+
 class ComputationErrors(Plate):
-    """Status 3, and everything up to the last accepted increment on disk."""
+    """Status 3, and everything up to the last accepted increment on disk, and the next one as it was before it failed."""
 
     def test_a_solver_that_does_not_converge(self):
         for ranks in [1, 2]:
@@ -257,6 +266,53 @@ class ComputationErrors(Plate):
                 self.assertEqual([float(row["increment"]) for row in self.history()], [1, 2])
                 with netCDF4.Dataset(self.output / "plate.e") as file:
                     self.assertEqual(list(file["time_whole"][:]), [1, 2])
+                with netCDF4.Dataset(self.unfinished) as file:
+                    self.assertEqual(list(file["time_whole"][:]), [3])
+                    self.assertAlmostEqual(file["vals_nod_var2"][0].max(), 0.6)
+
+                run = self.run_case("--restart", ranks=ranks)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual(len(self.history()), 3)
+                self.assertFalse(self.unfinished.exists())
+
+
+class PartedBar(Plate):
+    """A notched bar that breaks in two under a traction."""
+
+    MESH = bar_mesh()
+    CASE = changed(CASE, {
+        "Morphing/Seeds": {"middle": {"Center": [6, 2], "Inner Radius": 4.0, "Outer Radius": 4.5}},
+        "Pre-Cracks": {"notch": {"Points": [6, 3, 6, 4]}},
+        "Boundary Conditions": {
+            "Displacements": {f"hold {c}": {"Group": "left", "Component": c} for c in "xy"},
+            "Tractions": {"pull": {"Group": "right", "Rate": [10.0, 0.0]}},
+        },
+        "Loading/Increments": 10,
+    })
+
+    def test_it_ends_with_the_free_part_and_leaves_the_crack(self):
+        for ranks, spread in [(1, False), (2, False), (2, True)]:
+            with self.subTest(ranks=ranks, spread=spread):
+                run = self.run_case("--set", f"Output/Spread Files={str(spread).lower()}", ranks=ranks)
+
+                self.assertEqual(run.returncode, 3, run.stderr)
+                found = re.search(r"no equilibrium exists: the part of \d+ of \d+ nodes around \((.*), .*\) is free, "
+                                  r"and a load of \((.*), .*\) acts on it", run.stderr)
+                self.assertTrue(found, run.stderr)
+                self.assertGreater(float(found[1]), 6)
+                increment = len(self.history()) + 1
+                self.assertAlmostEqual(float(found[2]), increment * 10 * 4, places=3)
+                self.assertIn(f"unfinished       increment {increment}, as it was before it failed: {self.unfinished}",
+                              (self.output / "run.log").read_text())
+                self.assertTrue(any(self.output.glob("checkpoint*")))
+                files = [f"{self.unfinished}.2.{rank}" for rank in range(2)] if spread else [self.unfinished]
+                sides = 0
+                for name in files:
+                    with netCDF4.Dataset(name) as file:
+                        self.assertEqual(list(file["time_whole"][:]), [increment])
+                        place = text_of(file["ss_names"]).index("broken_surface") + 1
+                        sides += len(file.dimensions.get(f"num_side_ss{place}", []))
+                self.assertGreaterEqual(sides, 6)  # two faces of a crack through three elements at least
 
 
 class OtherCommands(Plate):

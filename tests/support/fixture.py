@@ -113,6 +113,7 @@ class Plate(InFolder):
     def setUp(self):
         super().setUp()
         self.output = self.folder / "out"
+        self.unfinished = self.output / "unfinished" / "plate.e"
         self.case = self.folder / "plate.xml"
         (self.folder / "plate.msh").write_text(self.MESH)
         self.write_case()

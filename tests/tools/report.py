@@ -92,7 +92,7 @@ class Report(InFolder):
     def test_tells_of_a_run_that_failed_before_its_first_increment(self):
         failed = self.folder / "failed"
         run = subprocess.run([PERIMORPH, "run", RUN.parent / "small_plate.xml", "--output", failed, "--quiet",
-                              "--set", "Solver/Maximum Iterations=1", "--set", "Solver/Tolerance=1e-14"],
+                              "--set", "Solver/Maximum Iterations=1", "--set", "Solver/Tolerance=1e-16"],
                              capture_output=True, text=True, timeout=60)
         self.assertEqual(run.returncode, 3, run.stderr)
         page = self.page(run=failed)

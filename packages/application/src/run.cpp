@@ -151,10 +151,18 @@ class Run {
       if (end == fracture::LoopEnd::stopped) stop();
       if (end == fracture::LoopEnd::done) results->summarize(body);
       return end == fracture::LoopEnd::done;
-    } catch (const base::ComputationError&) {
-      save_what_is_left(*results);
+    } catch (const base::ComputationError& error) {
+      save_what_is_left([&] { checkpoints_.write(*results); });
+      if (dynamic_cast<const fracture::UnfinishedIncrement*>(&error) != nullptr) {
+        save_what_is_left([&] { write_unfinished(position.increment + 1, body, *results); });
+      }
       throw;
     }
+  }
+
+  void write_unfinished(int increment, const fracture::Body<dim>& body, output::Results<dim>& results) const {
+    const auto file = results.write_unfinished(increment, body);
+    console_.log->info("unfinished       increment {}, as it was before it failed: {}", increment, file);
   }
 
   fracture::LoopLimits limits() const {
@@ -183,10 +191,11 @@ class Run {
                                              output::solves_of_the_next(checkpoints_.position())));
   }
 
-  /// A computation that cannot go on can be continued by other means.
-  void save_what_is_left(output::Results<dim>& results) {
+  /// A computation that cannot go on can be looked at, and be continued by other means.
+  template <class Save>
+  void save_what_is_left(Save save) const {
     try {
-      checkpoints_.write(results);
+      save();
     } catch (const base::ComputationError& error) {
       console_.log->warn("warning: {}", error.what());
     }

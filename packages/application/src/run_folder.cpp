@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/output/results.hpp"
 
 namespace perimorph::application {
 
@@ -71,6 +72,8 @@ void RunFolder::take_over(bool append_to_log) {
   open_log(append_to_log);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
+    std::error_code ignored;
+    std::filesystem::remove_all(output::folder_of_unfinished(path_), ignored);
     write_resolved();
     move_mesh();
   });

@@ -10,7 +10,7 @@ namespace {
 
 void check_limit(int count, int limit, int increment, const char* what, const char* parameter) {
   if (count <= limit) return;
-  throw base::ComputationError(
+  throw UnfinishedIncrement(
       fmt::format("increment {}: more than {} {}; /Loading/{} sets this limit", increment, limit, what, parameter));
 }
 
@@ -49,10 +49,10 @@ LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& lim
   if (position.damage_iterations == 0) body.apply_load(load_factor);
   do {
     if (!position.is_solved) {
+      check_limit(position.growths, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
       body.update_topology();
       if (observer.rebalance_wanted(body)) return LoopEnd::rebalance;
-      check_limit(position.growths++, limits.max_zone_growths, increment, "growths of the zone",
-                  "Maximum Zone Growths");
+      ++position.growths;
     }
     if (!break_until_quiet(body, limits, observer, position)) return LoopEnd::stopped;
   } while (body.flag_damaged_elements() > 0);

@@ -115,6 +115,7 @@ template <int dim>
 void Body<dim>::solve(Accuracy accuracy) {
   PERIMORPH_ASSERT(topology_.is_built(), "there is no topology to solve on");
   const auto u = base::field(state_.displacement);
+  const auto before = state_.displacement;
   if (!system_.has_forces()) {
     system_.apply_load(state_.load_factor);
     system_.space().expand(u, state_.load_factor);
@@ -124,19 +125,23 @@ void Body<dim>::solve(Accuracy accuracy) {
   const auto outcome = equilibrium_.find(system_, u, {tolerance, state_.force_scale, state_.counts.broken_bonds > 0});
   state_.counts.linear_solves += outcome.linear_solves;
   state_.counts.cg_iterations += outcome.cg_iterations;
-  if (!outcome.converged) give_up(outcome.trouble);
+  if (!outcome.converged) {
+    state_.displacement = before;
+    system_.evaluate(displacement());
+    throw UnfinishedIncrement(reason_for(outcome.trouble));
+  }
   state_.energies.external_work += base::sum(*comm_, work_.up_to(u, system_.internal_force(), system_.loads()));
 }
 
 /// Where nothing holds a part against its loads, that is why.
 template <int dim>
-void Body<dim>::give_up(const std::string& trouble) const {
+std::string Body<dim>::reason_for(const std::string& trouble) const {
   const auto free = operators::free_parts(*comm_, model(), system_.space(), system_.loads());
-  if (free.empty()) throw base::ComputationError(trouble);
-  throw base::ComputationError(fmt::format(
+  if (free.empty()) return trouble;
+  return fmt::format(
       "no equilibrium exists: the part of {} of {} nodes around ({:.6g}) is free, and a load of ({:.6g}) acts on it",
       free[0].n_nodes, topology_.dofs().n_global_nodes(), fmt::join(free[0].center, ", "),
-      fmt::join(free[0].load, ", ")));
+      fmt::join(free[0].load, ", "));
 }
 
 template <int dim>

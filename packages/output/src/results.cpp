@@ -43,6 +43,10 @@ std::vector<Reaction> reactions_after(const std::vector<std::string>& groups,
 
 }  // namespace
 
+std::string folder_of_unfinished(const std::string& run) {
+  return (std::filesystem::path(run) / "unfinished").string();
+}
+
 template <int dim>
 Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,
                       ConsoleOptions console, base::Profile& profile, const std::optional<ResultsState>& earlier)
@@ -55,12 +59,12 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::C
       totals_(earlier ? earlier->totals : Totals{}),
       reactions_(reactions_after<dim>(input.output.reactions, earlier)),
       columns_(history_columns(reactions_)),
+      series_{(std::filesystem::path(folder) / (input.name + ".e")).string(), input.title, names_of(columns_),
+              lines_of(input.resolved), input.output.spread_files},
       console_(std::move(console), profile, last_increment_, input.peridynamics.horizon,
                earlier ? earlier->seconds - earlier->seconds_before : 0.) {
-  const std::string file = (std::filesystem::path(folder) / (input.name + ".e")).string();
-  fields_ = std::make_unique<FieldSeries<dim>>(
-      comm, SeriesOptions{file, input.title, names_of(columns_), lines_of(input.resolved), input.output.spread_files},
-      earlier ? earlier->series : io::SeriesExtent{}, earlier ? earlier->fields : std::vector<io::FileExtent>{});
+  fields_ = std::make_unique<FieldSeries<dim>>(comm, series_, earlier ? earlier->series : io::SeriesExtent{},
+                                               earlier ? earlier->fields : std::vector<io::FileExtent>{});
   base::on_all_ranks(*comm, [&] {
     if (comm_->getRank() != 0) return;
     std::vector<std::string> columns = names_of(columns_);
@@ -108,12 +112,18 @@ IncrementRecord Results<dim>::record_of(int increment, const Body<dim>& body) {
 }
 
 template <int dim>
+std::vector<double> Results<dim>::values_of(const IncrementRecord& record) const {
+  std::vector<double> values;
+  for (const auto& column : columns_) values.push_back(column.value(record));
+  return values;
+}
+
+template <int dim>
 void Results<dim>::accept(int increment, const Body<dim>& body) {
   const auto timer = profile_.measure(base::Phase::write);
   const GlobalId newly_broken = count(increment, body.counts());
   const auto record = record_of(increment, body);
-  std::vector<double> values;
-  for (const auto& column : columns_) values.push_back(column.value(record));
+  const auto values = values_of(record);
   if (increment % output_every_ == 0 || newly_broken > 0 || increment == last_increment_) fields_->write(body, values);
   if (exports_) exports_->accept(increment, body);
   base::on_all_ranks(*comm_, [&] {
@@ -124,6 +134,20 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
     history_->check();
   });
   console_.show(record, newly_broken);
+}
+
+template <int dim>
+std::string Results<dim>::write_unfinished(int increment, const Body<dim>& body) {
+  const auto timer = profile_.measure(base::Phase::write);
+  const std::filesystem::path folder = folder_of_unfinished(folder_);
+  base::on_all_ranks(*comm_, [&] {
+    std::error_code told_when_a_file_is_made;
+    if (comm_->getRank() == 0) std::filesystem::create_directory(folder, told_when_a_file_is_made);
+  });
+  auto series = series_;
+  series.file = (folder / std::filesystem::path(series_.file).filename()).string();
+  FieldSeries<dim>(comm_, series, {}, {}).write(body, values_of(record_of(increment, body)));
+  return series.file;
 }
 
 template <int dim>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/discretization/saved_state.hpp"
 #include "perimorph/fracture/external_work.hpp"
 #include "perimorph/model/numerical_options.hpp"
@@ -15,6 +16,12 @@ using model::Problem;
 
 /// How well to solve: between breaks, or well enough to say that nothing breaks.
 enum class Accuracy { breaking, accepted };
+
+/// An increment cannot be finished. The body is as it was at the last equilibrium, but for the bonds that have broken
+/// since.
+struct UnfinishedIncrement : base::ComputationError {
+  using base::ComputationError::ComputationError;
+};
 
 using discretization::Counts;
 using discretization::Energies;
@@ -36,7 +43,8 @@ class Body {
   void update_topology();
 
   /// Solves R(u; bonds, load) = 0 for the displacement; costs nothing if it is accurate enough already.
-  /// @throws ComputationError if the solver fails, or if no equilibrium exists since a part of the body is free.
+  /// @throws UnfinishedIncrement if none is found, with the reason where a part of the body is free; ComputationError
+  /// if the solver fails.
   void solve(Accuracy accuracy);
 
   /// Breaks the bonds that reached the critical stretch, or the worst of them (NumericalOptions::breaking_fraction);
@@ -96,7 +104,7 @@ class Body {
   void move_to_new_numbering();
   void assemble();
   void publish(const bonds::BondChange& change);
-  [[noreturn]] void give_up(const std::string& trouble) const;
+  std::string reason_for(const std::string& trouble) const;
 };
 
 }  // namespace perimorph::fracture

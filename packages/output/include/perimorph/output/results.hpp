@@ -13,6 +13,9 @@
 
 namespace perimorph::output {
 
+/// The folder within that of a run for what is left of an increment that cannot be finished.
+std::string folder_of_unfinished(const std::string& run);
+
 /// Everything a run leaves behind of its accepted increments: a row of history.csv, a line on the terminal, fields, and
 /// what is written on request. Rank 0 writes what it gathers from all; spread files each rank by itself.
 template <int dim>
@@ -34,6 +37,10 @@ class Results {
   /// @throws ComputationError if a file cannot be written, or somebody has removed or changed it.
   void accept(int increment, const fracture::Body<dim>& body);
 
+  /// Writes the fields of an increment that cannot be finished, beside the series of those that are accepted; returns
+  /// the file. Collective. @throws as accept.
+  std::string write_unfinished(int increment, const fracture::Body<dim>& body);
+
   /// What the current increment is at. Local.
   void show_progress(int increment, const fracture::Body<dim>& body) {
     console_.show_progress(increment, body.counts());
@@ -54,6 +61,7 @@ class Results {
   Totals totals_;
   std::vector<Reaction> reactions_;
   std::vector<Column> columns_;
+  SeriesOptions series_;
   Console console_;
   std::unique_ptr<io::History> history_;  ///< on rank 0
   std::unique_ptr<FieldSeries<dim>> fields_;
@@ -62,6 +70,7 @@ class Results {
   double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
   base::GlobalId count(int increment, const discretization::Counts& counts);
   IncrementRecord record_of(int increment, const fracture::Body<dim>& body);
+  std::vector<double> values_of(const IncrementRecord& record) const;
 };
 
 }  // namespace perimorph::output
