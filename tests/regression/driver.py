@@ -296,8 +296,8 @@ class PartedBar(Plate):
                 run = self.run_case("--set", f"Output/Spread Files={str(spread).lower()}", ranks=ranks)
 
                 self.assertEqual(run.returncode, 3, run.stderr)
-                found = re.search(r"no equilibrium exists: the part of \d+ of \d+ nodes around \((.*), .*\) is free, "
-                                  r"and a load of \((.*), .*\) acts on it", run.stderr)
+                found = re.search(r"no equilibrium was found: only bonds beyond the critical stretch hold the part of "
+                                  r"\d+ of \d+ nodes around \((.*), .*\) against a load of \((.*), .*\)\n", run.stderr)
                 self.assertTrue(found, run.stderr)
                 self.assertGreater(float(found[1]), 6)
                 increment = len(self.history()) + 1

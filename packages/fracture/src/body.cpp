@@ -126,22 +126,34 @@ void Body<dim>::solve(Accuracy accuracy) {
   state_.counts.linear_solves += outcome.linear_solves;
   state_.counts.cg_iterations += outcome.cg_iterations;
   if (!outcome.converged) {
+    const auto reason = reason_for(outcome.trouble);
     state_.displacement = before;
     system_.evaluate(displacement());
-    throw UnfinishedIncrement(reason_for(outcome.trouble));
+    throw UnfinishedIncrement(reason);
   }
   state_.energies.external_work += base::sum(*comm_, work_.up_to(u, system_.internal_force(), system_.loads()));
 }
 
-/// Where nothing holds a part against its loads, that is why.
+/// Where nothing holds a part against its loads, or nothing but bonds that would break, that is why.
 template <int dim>
 std::string Body<dim>::reason_for(const std::string& trouble) const {
-  const auto free = operators::free_parts(*comm_, model(), system_.space(), system_.loads());
+  const auto free_without = [&](const std::vector<bonds::BondId>& failing) {
+    return operators::free_parts(*comm_, model(), system_.space(), system_.loads(), failing);
+  };
+  const auto description_of = [&](const operators::FreePart<dim>& part) {
+    return fmt::format("the part of {} of {} nodes around ({:.6g})", part.n_nodes, topology_.dofs().n_global_nodes(),
+                       fmt::join(part.center, ", "));
+  };
+  if (const auto free = free_without({}); !free.empty()) {
+    return fmt::format("no equilibrium exists: {} is free, and a load of ({:.6g}) acts on it", description_of(free[0]),
+                       fmt::join(free[0].load, ", "));
+  }
+  const auto& u = system_.displacement_at_points();
+  const auto free = free_without(topology_.bonds().overstretched(u, problem_.critical_stretch, topology_.classes()));
   if (free.empty()) return trouble;
   return fmt::format(
-      "no equilibrium exists: the part of {} of {} nodes around ({:.6g}) is free, and a load of ({:.6g}) acts on it",
-      free[0].n_nodes, topology_.dofs().n_global_nodes(), fmt::join(free[0].center, ", "),
-      fmt::join(free[0].load, ", "));
+      "no equilibrium was found: only bonds beyond the critical stretch hold {} against a load of ({:.6g})",
+      description_of(free[0]), fmt::join(free[0].load, ", "));
 }
 
 template <int dim>

@@ -32,13 +32,13 @@ class JoinedNodes {
 };
 
 template <int dim>
-JoinedNodes joined_nodes(const CoupledModel<dim>& model) {
+JoinedNodes joined_nodes(const CoupledModel<dim>& model, const std::vector<bonds::BondId>& failing) {
   JoinedNodes joined(model.dofs.n_nodes());
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     for (int k = 1; k < model.mesh.n_corners(e); ++k) joined.join(model.dofs.nodes_of(e)[k], model.dofs.nodes_of(e)[0]);
   }
   model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
-    if (bond.is_broken) return;
+    if (bond.is_broken || std::binary_search(failing.begin(), failing.end(), bond.id)) return;
     joined.join(model.dofs.nodes_of(bond.first_element)[0], model.dofs.nodes_of(bond.second_element)[0]);
   });
   return joined;
@@ -46,9 +46,10 @@ JoinedNodes joined_nodes(const CoupledModel<dim>& model) {
 
 /// For each local node the lowest global node of its part. Collective.
 template <int dim>
-std::vector<GlobalId> parts_of_nodes(const base::Comm& comm, const CoupledModel<dim>& model) {
+std::vector<GlobalId> parts_of_nodes(const base::Comm& comm, const CoupledModel<dim>& model,
+                                     const std::vector<bonds::BondId>& failing) {
   const auto& dofs = model.dofs;
-  JoinedNodes joined = joined_nodes(model);
+  JoinedNodes joined = joined_nodes(model, failing);
   std::vector<GlobalId> part(dofs.n_nodes());
   for (int n = 0; n < dofs.n_nodes(); ++n) part[n] = dofs.global_node(n);
   Tpetra::Vector<double> owned(dofs.owned_dofs()), all(dofs.all_dofs());
@@ -116,11 +117,12 @@ std::map<GlobalId, Share<dim>> by_part(const std::vector<Share<dim>>& shares) {
 
 template <int dim>
 std::vector<FreePart<dim>> free_parts(const base::Comm& comm, const CoupledModel<dim>& model,
-                                      const discretization::Space<dim>& space, const std::vector<double>& loads) {
+                                      const discretization::Space<dim>& space, const std::vector<double>& loads,
+                                      const std::vector<bonds::BondId>& failing) {
   PERIMORPH_ASSERT(loads.size() == space.n_owned(), "{} loads for {} degrees of freedom", loads.size(),
                    space.n_owned());
   constexpr double felt = 1e-6;  // share of all loads; less is rounding
-  const auto part = parts_of_nodes(comm, model);
+  const auto part = parts_of_nodes(comm, model, failing);
   std::vector<Share<dim>> own;
   for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) {
     own.push_back(share_of(model, space, loads, n));
@@ -144,8 +146,10 @@ std::vector<FreePart<dim>> free_parts(const base::Comm& comm, const CoupledModel
 }
 
 template std::vector<FreePart<2>> free_parts<2>(const base::Comm&, const CoupledModel<2>&,
-                                                const discretization::Space<2>&, const std::vector<double>&);
+                                                const discretization::Space<2>&, const std::vector<double>&,
+                                                const std::vector<bonds::BondId>&);
 template std::vector<FreePart<3>> free_parts<3>(const base::Comm&, const CoupledModel<3>&,
-                                                const discretization::Space<3>&, const std::vector<double>&);
+                                                const discretization::Space<3>&, const std::vector<double>&,
+                                                const std::vector<bonds::BondId>&);
 
 }  // namespace perimorph::operators
