@@ -26,13 +26,14 @@ using namespace perimorph;
 struct Arguments {
   std::string case_file, output;
   std::vector<std::string> overrides;
-  bool quiet = false, no_progress = false, restart = false;
+  bool quiet = false, no_progress = false, restart = false, allow_shell = false;
   bool markdown = false, relax_ng = false;
 
   application::Verbosity verbosity() const {
     if (quiet) return application::Verbosity::quiet;
     return no_progress || isatty(STDOUT_FILENO) == 0 ? application::Verbosity::lines : application::Verbosity::progress;
   }
+  mesh_files::Shell shell() const { return allow_shell ? mesh_files::Shell::allowed : mesh_files::Shell::refused; }
   application::Start start() const {
     return restart ? application::Start::from_checkpoint : application::Start::at_the_first_increment;
   }
@@ -43,7 +44,8 @@ cases::Case read_case(const base::Comm& comm, const Arguments& arguments) {
   cases::Case input;
   for (const bool is_first : {true, false}) {  // it tells the mistakes, and to find them may take reading the mesh
     base::on_all_ranks(comm, [&] {
-      if (is_first == (comm.getRank() == 0)) input = cases::read_case(arguments.case_file, arguments.overrides);
+      if (is_first != (comm.getRank() == 0)) return;
+      input = cases::read_case(arguments.case_file, arguments.overrides, arguments.shell());
     });
   }
   return input;
@@ -57,6 +59,8 @@ void add_case_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--set", arguments.overrides, "Override a parameter: \"Section/Sub/Name=value\"")
       ->allow_extra_args(false);
   command.add_flag("--quiet", arguments.quiet, "Print warnings and errors only");
+  command.add_flag("--allow-shell", arguments.allow_shell,
+                   "Let the mesh's geometry (.geo) run commands and write files, which is refused otherwise");
 }
 
 std::string description_of_parameters(const Arguments& arguments) {

@@ -109,13 +109,13 @@ class Runs(InThreeDimensions):
                 with netCDF4.Dataset(part) as file:
                     types = [file[f"connect{b}"].elem_type for b in range(1, len(file["eb_prop1"]) + 1)]
                     found |= set(zip(text_of(file["eb_names"]), map(int, file["eb_prop1"][:]), types))
-        first_ids = {"TETRA4": 11, "PYRAMID5": 21, "WEDGE6": 31, "HEX8": 41}
+        first_ids = {"TETRA": 11, "PYRAMID": 21, "WEDGE": 31, "HEX8": 41}
         self.assertEqual({shape for _, _, shape in found}, set(first_ids))
         for name, number, shape in found:
             kind = ["FE", "MORPH", "PD", "DGFE"][number - first_ids[shape]]
-            self.assertEqual(name, f"body_{kind}" if shape == "TETRA4" else f"body_{kind}_{shape}")
+            self.assertEqual(name, f"body_{kind}" if shape == "TETRA" else f"body_{kind}_{shape}")
         self.assertIn(("body_DGFE_HEX8", 44, "HEX8"), found)
-        self.assertIn(("body_MORPH_PYRAMID5", 22, "PYRAMID5"), found)
+        self.assertIn(("body_MORPH_PYRAMID", 22, "PYRAMID"), found)
 
     HEX_SIDES = [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [0, 4, 7, 3], [0, 3, 2, 1], [4, 5, 6, 7]]
 

@@ -72,6 +72,12 @@ std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm
   return lines;
 }
 
+/// What reading the mesh changed. The whole mesh, and its notes, are on rank 0.
+template <int dim>
+void tell_notes(const mesh::Mesh<dim>& whole, const base::Log& log) {
+  for (const std::string& note : whole.notes) log->warn("note: {}", note);
+}
+
 /// One run of a case.
 template <int dim>
 class Run {
@@ -120,6 +126,7 @@ class Run {
   mesh::Mesh<dim> read() {
     const auto timer = profile_.measure(base::Phase::read);
     auto checked = cases::read_whole_mesh<dim>(*comm_, input_, folder_.for_mesh());
+    tell_notes(checked.whole, console_.log);
     warn(console_.log, input_, checked.warnings);
     warn_of_names(checked.whole, input_, console_.log);
     checkpoints_.identify(checked.whole);
@@ -291,7 +298,12 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
   const auto mesh = model::distribute_mesh(*comm, whole, problem, costs);
   log->info("{}", input::listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
+  if (mesh_files::is_geometry(input.mesh.file)) {
+    log->info("geometry         a program that gmsh runs; commands and writing files are {} (--allow-shell)",
+              input.mesh.shell == mesh_files::Shell::allowed ? "allowed" : "refused");
+  }
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
+  tell_notes(whole, log);
   warn(log, input, warnings);
   warn_of_names(whole, input, log);
 

@@ -67,6 +67,9 @@ class GroupChecks {
     if (std::find(blocks.begin(), blocks.end(), group) != blocks.end()) {
       return fmt::format(" ({} is a group of elements)", in_quotes(group));
     }
+    for (const std::string& note : mesh_.notes) {
+      if (note.find(in_quotes(group)) != std::string::npos) return fmt::format(" ({})", note);
+    }
     return mesh_.node_sets.count(group) != 0 ? fmt::format(" ({} has nodes only)", in_quotes(group)) : "";
   }
 

@@ -19,7 +19,7 @@ struct Properties {
 
 /// In the order of ElementType.
 constexpr std::array<Properties, n_types> properties = {
-    {{3, 2, "TRI3"}, {4, 2, "QUAD4"}, {4, 3, "TETRA4"}, {5, 3, "PYRAMID5"}, {6, 3, "WEDGE6"}, {8, 3, "HEX8"}}};
+    {{3, 2, "TRI3"}, {4, 2, "QUAD4"}, {4, 3, "TETRA"}, {5, 3, "PYRAMID"}, {6, 3, "WEDGE"}, {8, 3, "HEX8"}}};
 
 const Properties& properties_of(ElementType type) {
   const auto t = static_cast<std::size_t>(type);

@@ -1,65 +1,46 @@
-// Archives of ANSYS (CDWRITE, blocked): the commands ET, NBLOCK, EBLOCK and CMBLOCK of its Command Reference, and the
-// shapes of PLANE182 and SOLID185 in its Element Reference.
+// Archives of ANSYS (CDWRITE, blocked) and the input files of its Workbench: the commands ET, ETBLOCK, TYPE, NBLOCK,
+// EBLOCK and CMBLOCK of its Command Reference, and the shapes of solid elements in its Element Reference.
 
 #include "ansys_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include "file_cursor.hpp"
 #include "perimorph/base/errors.hpp"
+#include "text_fields.hpp"
 
 namespace perimorph::mesh_files {
 
 namespace {
 
-const Advice advice = {"write PLANE182 elements for a 2D case, SOLID185 for a 3D one",
-                       "Select only the nodes of the elements (NSLE) before CDWRITE",
-                       "ANSYS numbers the nodes of an area's elements counterclockwise, seen from +z: reverse the area "
-                       "(AREVERSE)"};
-
-constexpr std::size_t longest_command = 500;
-constexpr int widest_column = 60;
+const char* const advice = "write PLANE182 elements for a 2D case, SOLID185 for a 3D one";
 
 // Which field of a line of EBLOCK, SOLID is what.
 constexpr std::size_t material_field = 0, type_field = 1, count_field = 8, number_field = 10, n_fields = 11;
-constexpr std::size_t nodes_in_line = 8;
 
 using Nodes = std::vector<std::int64_t>;
 
-/// The number of corners of the elements that may be read, by ANSYS' number of the element.
-const std::map<int, std::size_t> corners_of_kind = {{42, 4}, {182, 4}, {45, 8}, {185, 8}};
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// The fields of a command, without blanks around them and without the comment after "!".
-std::vector<std::string> fields_of(const std::string& line) {
-  const std::string command = line.substr(0, std::min(line.find('!'), longest_command));
-  std::vector<std::string> fields;
-  for (std::size_t begin = 0; begin <= command.size();) {
-    const std::size_t comma = std::min(command.find(',', begin), command.size());
-    fields.push_back(trimmed(command.substr(begin, comma - begin)));
-    begin = comma + 1;
-  }
-  return fields;
-}
-
-/// A line such as (3i9,6e21.13e3): columns of whole numbers, then of real ones.
-struct Format {
-  int n_integers = 0, integer_width = 0, n_reals = 0, real_width = 0;
+/// A kind of elements: how many nodes it has, of which so many come first and are its corners.
+struct Kind {
+  std::size_t n_nodes, n_corners;
+  bool is_plane;
 };
+
+/// The elements that may be read, by ANSYS' number of the kind.
+const std::map<int, Kind> kinds_of_bodies = {{42, {4, 4, true}},   {182, {4, 4, true}},  {82, {8, 4, true}},
+                                             {183, {8, 4, true}},  {2, {6, 3, true}},    {45, {8, 8, false}},
+                                             {185, {8, 8, false}}, {95, {20, 8, false}}, {186, {20, 8, false}},
+                                             {285, {4, 4, false}}, {92, {10, 4, false}}, {187, {10, 4, false}}};
+
+/// Masses, springs, links, beams, pipes, surface effects, contact, pretension, joints: no bodies of their own.
+const std::set<int> kinds_without_body = {3,   4,   8,   10,  14,  21,  39,  40,  116, 151, 152, 153, 154,
+                                          156, 169, 170, 171, 172, 173, 174, 175, 176, 177, 178, 179, 180,
+                                          184, 188, 189, 200, 201, 214, 250, 251, 288, 289, 290};
 
 /// A collapsed element without its repeated nodes.
 struct Reduced {
@@ -95,6 +76,7 @@ class Reader {
     std::sort(sorted_tags_.begin(), sorted_tags_.end());
     add_blocks();
     add_node_sets();
+    note_what_was_passed_over();
     return std::move(result_);
   }
 
@@ -110,8 +92,14 @@ class Reader {
     const std::string command = lower(fields[0]);
     if (command == "et") {
       read_element_kind(fields);
+    } else if (command == "etblock") {
+      read_element_kinds();
+    } else if (command == "type") {
+      current_type_ = fields.size() > 1 ? number_or_parameter(fields[1]).value_or(0) : 0;
+    } else if (command == "*set") {
+      read_parameter(fields);
     } else if (command == "nblock") {
-      read_nodes(fields);
+      read_nodes();
     } else if (command == "eblock") {
       read_elements(fields);
     } else if (command == "cmblock") {
@@ -124,8 +112,7 @@ class Reader {
   std::int64_t whole_number(const std::string& text) const {
     const std::string digits = trimmed(text);
     std::int64_t value = 0;
-    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || stop != digits.data() + digits.size()) {
+    if (!parse_number(digits, value)) {
       cursor_.fail(fmt::format("a whole number expected, found \"{}\"", excerpt(digits)));
     }
     return value;
@@ -135,8 +122,7 @@ class Reader {
     const std::string digits = trimmed(text);
     double value = 0.;
     if (digits.empty()) return value;
-    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || stop != digits.data() + digits.size() || !std::isfinite(value)) {
+    if (!parse_number(with_exponent(digits), value) || !std::isfinite(value)) {
       cursor_.fail(fmt::format("a number expected, found \"{}\"", excerpt(digits)));
     }
     return value;
@@ -152,16 +138,11 @@ class Reader {
     cursor_.fail(fmt::format("{} {} announced, {} found: the file is damaged", expected, what, found));
   }
 
-  Format read_format() {
-    const std::string line = lower(cursor_.line());
-    Format format;
-    const int n = std::sscanf(line.c_str(), "(%4di%4d,%4de%4d", &format.n_integers, &format.integer_width,
-                              &format.n_reals, &format.real_width);
-    const auto is_sound = [](int width) { return width >= 1 && width <= widest_column; };
-    const bool sound = (n == 2 || n == 4) && is_sound(format.n_integers) && is_sound(format.integer_width) &&
-                       (n == 2 || (is_sound(format.n_reals) && is_sound(format.real_width)));
-    if (!sound) {
-      cursor_.fail(fmt::format("a format such as (3i9,6e21.13e3) expected, found \"{}\"", excerpt(line)));
+  ColumnFormat read_format() {
+    const std::string line = cursor_.line();
+    ColumnFormat format;
+    if (!parse_column_format(line, format)) {
+      cursor_.fail(fmt::format("a format such as (3i9,6e21.13e3) expected, found \"{}\"", excerpt(lower(line))));
     }
     return format;
   }
@@ -172,17 +153,15 @@ class Reader {
     return cursor_.raw_line();
   }
 
-  static std::string column(const std::string& line, std::size_t begin, int width) {
-    return begin < line.size() ? line.substr(begin, static_cast<std::size_t>(width)) : "";
-  }
-
   /// The whole numbers of a line, up to its end.
-  std::vector<std::int64_t> integers(const std::string& line, const Format& format) const {
+  std::vector<std::int64_t> integers(const std::string& line, const ColumnFormat& format) const {
     std::vector<std::int64_t> values;
-    for (int i = 0; i < format.n_integers; ++i) {
-      const std::string text = column(line, static_cast<std::size_t>(i) * format.integer_width, format.integer_width);
+    std::size_t begin = 0;
+    for (const int width : format.integers) {
+      const std::string text = column(line, begin, width);
       if (trimmed(text).empty()) break;
       values.push_back(whole_number(text));
+      begin += static_cast<std::size_t>(width);
     }
     return values;
   }
@@ -193,35 +172,58 @@ class Reader {
   void read_element_kind(const std::vector<std::string>& fields) {
     if (fields.size() < 3) cursor_.fail("ET without a number and an element type");
     const std::string digits = fields[2].substr(std::min(fields[2].find_first_of("0123456789"), fields[2].size()));
-    kinds_[whole_number(fields[1])] = static_cast<int>(whole_number(digits) % 100000);
+    if (const auto type = number_or_parameter(fields[1])) {
+      kinds_[*type] = static_cast<int>(whole_number(digits) % 100000);
+    }
   }
 
-  void read_nodes(const std::vector<std::string>& fields) {
-    const Format format = read_format();
-    const std::size_t before = result_.node_tags.size();
+  /// *SET, name, value: Workbench names types of contact elements so.
+  void read_parameter(const std::vector<std::string>& fields) {
+    std::int64_t value = 0;
+    if (fields.size() > 2 && parse_number(fields[2], value)) parameters_[lower(fields[1])] = value;
+  }
+
+  std::optional<std::int64_t> number_or_parameter(const std::string& field) const {
+    std::int64_t value = 0;
+    if (parse_number(field, value)) return value;
+    const auto parameter = parameters_.find(lower(field));
+    return parameter == parameters_.end() ? std::nullopt : std::optional(parameter->second);
+  }
+
+  /// Since ANSYS 2019: number, kind, key options, a line each.
+  void read_element_kinds() {
+    const ColumnFormat format = read_format();
+    for (;;) {
+      const std::vector<std::int64_t> line = integers(data_line(), format);
+      if (line.empty() || line[0] == -1) return;
+      if (line.size() < 2) cursor_.fail("ETBLOCK has a line without a number and an element type");
+      kinds_[line[0]] = static_cast<int>(line[1] % 100000);
+    }
+  }
+
+  /// The command's counts are upper bounds.
+  void read_nodes() {
+    const ColumnFormat format = read_format();
+    const int first_real = std::accumulate(format.integers.begin(), format.integers.end(), 0);
     for (;;) {
       const std::string line = data_line();
       const std::string start = trimmed(line);
       if (start.rfind("-1", 0) == 0 || start.rfind("N,", 0) == 0 || start.rfind("n,", 0) == 0) break;
-      result_.node_tags.push_back(whole_number(column(line, 0, format.integer_width)));
+      result_.node_tags.push_back(whole_number(column(line, 0, format.integers[0])));
       auto& point = result_.coordinates.emplace_back();
-      auto begin = static_cast<std::size_t>(format.n_integers) * static_cast<std::size_t>(format.integer_width);
-      for (int d = 0; d < std::min(3, format.n_reals); ++d) {
-        point[static_cast<std::size_t>(d)] = real_number(column(line, begin, format.real_width));
-        begin += static_cast<std::size_t>(format.real_width);
+      auto begin = static_cast<std::size_t>(first_real);
+      for (std::size_t d = 0; d < std::min(point.size(), format.others.size()); ++d) {
+        point[d] = real_number(column(line, begin, format.others[d]));
+        begin += static_cast<std::size_t>(format.others[d]);
       }
     }
-    check_total("nodes", announced(fields, fields.size() > 2 && lower(fields[2]) == "solid" ? 4 : 3),
-                result_.node_tags.size() - before);
     has_nodes_ = true;
   }
 
   void read_elements(const std::vector<std::string>& fields) {
-    if (fields.size() < 3 || lower(fields[2]) != "solid") {
-      cursor_.fail("EBLOCK without SOLID, as for surface and contact elements; allowed are solid elements only");
-    }
-    const Format format = read_format();
-    const std::size_t before = result_.n_elements();
+    if (fields.size() < 3 || lower(fields[2]) != "solid") return pass_over_elements();
+    const ColumnFormat format = read_format();
+    const std::size_t before = n_elements();
     for (;;) {
       const std::vector<std::int64_t> line = integers(data_line(), format);
       if (!line.empty() && line[0] == -1) break;
@@ -230,42 +232,90 @@ class Reader {
       }
       read_element(line, format);
     }
-    check_total("elements", announced(fields, 4), result_.n_elements() - before);
+    check_total("elements", announced(fields, 4), n_elements() - before);
     has_elements_ = true;
   }
 
-  void read_element(const std::vector<std::int64_t>& line, const Format& format) {
-    const std::int64_t number = line[number_field];
-    const std::size_t n_corners = corners_of(number, line[type_field]);
-    if (line[count_field] != static_cast<std::int64_t>(n_corners)) {
-      cursor_.fail(fmt::format("element {} has {} nodes; its type has {}", number, line[count_field], n_corners));
+  /// Of this file so far, also those that are passed over.
+  std::size_t n_elements() const {
+    std::size_t n = result_.n_elements();
+    for (const auto& [kind, count] : passed_over_) n += count;
+    return n;
+  }
+
+  /// A block without SOLID is all of the type that the command TYPE names.
+  void pass_over_elements() {
+    const auto kind = kinds_.find(current_type_);
+    const int number = kind == kinds_.end() ? 0 : kind->second;
+    if (kinds_without_body.count(number) == 0) {
+      cursor_.fail(
+          fmt::format("EBLOCK without SOLID, of ANSYS' element type {}; allowed in such a block are surface, contact "
+                      "and other elements without a body, which are passed over",
+                      number));
     }
+    const ColumnFormat format = read_format();
+    for (;;) {
+      const std::vector<std::int64_t> line = integers(data_line(), format);
+      if (!line.empty() && line[0] == -1) return;
+      ++passed_over_[number];
+    }
+  }
+
+  void read_element(const std::vector<std::int64_t>& line, const ColumnFormat& format) {
+    const std::int64_t number = line[number_field];
+    const int kind = kind_of(number, line[type_field]);
+    const auto n_nodes = static_cast<std::size_t>(line[count_field]);
     Nodes nodes(line.begin() + n_fields, line.end());
-    if (nodes.size() < std::min(n_corners, nodes_in_line)) {
+    while (nodes.size() < n_nodes) {
       const auto rest = integers(data_line(), format);
+      if (rest.empty()) break;
       nodes.insert(nodes.end(), rest.begin(), rest.end());
     }
-    if (nodes.size() != n_corners) {
-      cursor_.fail(fmt::format("element {} announces {} nodes, but has {}", number, n_corners, nodes.size()));
+    if (nodes.size() != n_nodes) {
+      cursor_.fail(fmt::format("element {} announces {} nodes, but has {}", number, n_nodes, nodes.size()));
     }
-    const Reduced reduced = n_corners == 4 ? reduced_plane(nodes, number) : reduced_solid(nodes, number);
+    if (kinds_without_body.count(kind) > 0) {
+      ++passed_over_[kind];
+    } else {
+      add_body_element(line, kind, nodes);
+    }
+  }
+
+  void add_body_element(const std::vector<std::int64_t>& line, int kind_number, const Nodes& nodes) {
+    const Kind& kind = kinds_of_bodies.at(kind_number);
+    const std::int64_t number = line[number_field];
+    if (nodes.size() != kind.n_nodes && nodes.size() != kind.n_corners) {
+      cursor_.fail(fmt::format("element {} has {} nodes; its type has {}", number, nodes.size(), kind.n_nodes));
+    }
+    Nodes corners(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(kind.n_corners));
+    Reduced reduced = kind.is_plane         ? reduced_plane(corners, number)
+                      : kind.n_corners == 4 ? Reduced{Shape::tetrahedron, corners}
+                                            : reduced_solid(corners, number);
+    reduced.nodes.insert(reduced.nodes.end(), nodes.begin() + static_cast<std::ptrdiff_t>(kind.n_corners), nodes.end());
     result_.add_element(number, reduced.shape, 0, reduced.nodes);
     materials_.push_back(line[material_field]);
   }
 
-  std::size_t corners_of(std::int64_t element, std::int64_t type) const {
+  int kind_of(std::int64_t element, std::int64_t type) const {
     const auto kind = kinds_.find(type);
     if (kind == kinds_.end()) {
       cursor_.fail(fmt::format("element {} has type {}, which no ET command defines before it", element, type));
     }
-    const auto corners = corners_of_kind.find(kind->second);
-    if (corners == corners_of_kind.end()) {
+    if (kinds_of_bodies.count(kind->second) == 0 && kinds_without_body.count(kind->second) == 0) {
       cursor_.fail(
-          fmt::format("element {} is of ANSYS' type {}; allowed are PLANE182 and PLANE42 in 2D, SOLID185 and "
-                      "SOLID45 in 3D (unselect others before CDWRITE)",
+          fmt::format("element {} is of ANSYS' type {}; allowed are PLANE182, PLANE183, PLANE42, PLANE82 and PLANE2 in "
+                      "2D, SOLID185, SOLID186, SOLID187, SOLID285, SOLID45, SOLID92 and SOLID95 in 3D (unselect others "
+                      "before CDWRITE)",
                       element, kind->second));
     }
-    return corners->second;
+    return kind->second;
+  }
+
+  void note_what_was_passed_over() {
+    for (const auto& [kind, count] : passed_over_) {
+      result_.notes.push_back(
+          fmt::format("{} elements of ANSYS' type {}, which have no body, are passed over", count, kind));
+    }
   }
 
   /// A triangle has its last node twice.
@@ -300,7 +350,7 @@ class Reader {
     if (fields.size() < 4) cursor_.fail("CMBLOCK without a name, a kind and a count");
     const std::string kind = lower(fields[2]).substr(0, 4);
     const std::size_t count = cursor_.checked(announced(fields, 3), 1, 1);
-    const Format format = read_format();
+    const ColumnFormat format = read_format();
     Component component{fields[1], {}};
     for (std::size_t n = 0; n < count;) {
       const std::vector<std::int64_t> values = integers(data_line(), format);
@@ -398,8 +448,11 @@ class Reader {
   FileCursor cursor_;
   MeshFile result_;
   bool has_nodes_ = false, has_elements_ = false;
-  std::map<std::int64_t, int> kinds_;    ///< by the number that ET gives them
-  std::vector<std::int64_t> materials_;  ///< by element
+  std::map<std::int64_t, int> kinds_;  ///< by the number that ET gives them
+  std::int64_t current_type_ = 0;      ///< as TYPE says
+  std::map<std::string, std::int64_t> parameters_;
+  std::map<int, std::size_t> passed_over_;  ///< number of elements by kind
+  std::vector<std::int64_t> materials_;     ///< by element
   std::vector<Component> node_components_, element_components_;
   std::vector<std::int64_t> sorted_tags_;
 };

@@ -10,6 +10,11 @@ namespace perimorph::mesh_files {
 /// @param descriptor the end to read from
 std::string read_to_end(int descriptor);
 
+/// From here on this process and its children start no program but one, as far as the system can see to that (Linux on
+/// x86-64 and ARM). May be called between fork() and exec(). Local.
+/// @param allowed the very string that execve() will be called with
+void forbid_other_programs(const char* allowed);
+
 /// Waits for a child process to end, and returns its status as waitpid() gives it. Local.
 int wait_for(pid_t process);
 

@@ -10,11 +10,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
-#include <optional>
+#include <map>
+#include <numeric>
 #include <set>
 
 #include "classic_header.hpp"
+#include "exodus_types.hpp"
 #include "file_cursor.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
@@ -26,35 +27,17 @@ namespace perimorph::mesh_files {
 namespace {
 
 constexpr int longest_name = 256;
-constexpr int first_side_of_shell = 2;       // its sides 1 and 2 are its faces
+constexpr int n_faces_of_shell = 2;          // its sides 1 and 2, before its edges
 constexpr std::int64_t best_packing = 1032;  // of HDF5's compression (deflate)
 
 // The limits for reading an HDF5 file: more than any sound one needs.
 constexpr std::size_t trial_memory = std::size_t{1} << 30U, trial_memory_per_byte = 100;
 constexpr std::size_t trial_seconds = 60, trial_bytes_per_second = 1000000;
 
-const Advice advice = {"export the elements of what is to be computed, plane ones for a 2D case",
-                       "Export only nodes that elements use",
-                       "Number their nodes counterclockwise, seen from +z (in 3D so that volumes are positive)"};
+const char* const advice = "export the elements of what is to be computed, plane ones for a 2D case";
 
-/// An element type as programs that write Exodus files spell it.
-struct Spelling {
-  const char* name;
-  Shape shape;
-  bool is_shell;  // a 2D element with faces
-};
-constexpr Spelling spellings[] = {
-    {"TRI", Shape::triangle, false},     {"TRI3", Shape::triangle, false},      {"TRIANGLE", Shape::triangle, false},
-    {"TRISHELL", Shape::triangle, true}, {"QUAD", Shape::quadrangle, false},    {"QUAD4", Shape::quadrangle, false},
-    {"SHELL", Shape::quadrangle, true},  {"SHELL4", Shape::quadrangle, true},   {"TETRA", Shape::tetrahedron, false},
-    {"TET", Shape::tetrahedron, false},  {"TETRA4", Shape::tetrahedron, false}, {"TET4", Shape::tetrahedron, false},
-    {"PYRAMID", Shape::pyramid, false},  {"PYRAMID5", Shape::pyramid, false},   {"WEDGE", Shape::wedge, false},
-    {"WEDGE6", Shape::wedge, false},     {"HEX", Shape::hexahedron, false},     {"HEX8", Shape::hexahedron, false}};
-
-/// The shape of a side with so many nodes of an element of this dimension.
-Shape side_shape(int element_dimension, std::size_t n_side_nodes) {
-  if (element_dimension == 2) return Shape::line;
-  return n_side_nodes == 3 ? Shape::triangle : Shape::quadrangle;
+Shape side_shape(std::size_t n_nodes) {
+  return n_nodes == 2 ? Shape::line : n_nodes == 3 ? Shape::triangle : Shape::quadrangle;
 }
 
 enum class Container { netcdf, hdf5 };
@@ -131,6 +114,15 @@ class Reader {
   }
 
  private:
+  static constexpr int passed_over = -1;
+
+  /// How a block's plane elements number their sides.
+  struct SideNumbering {
+    std::string block;
+    int dimension;  ///< of its elements
+    bool is_shell;
+  };
+
   struct Set {
     std::int64_t id;
     std::string name;
@@ -175,12 +167,6 @@ class Reader {
     return numbers;
   }
 
-  std::vector<std::int64_t> tags(ex_entity_type kind, std::int64_t count, const std::string& what) const {
-    std::vector<std::int64_t> numbers(static_cast<std::size_t>(count));
-    if (count > 0) check(ex_get_id_map(handle_.id(), kind, numbers.data()), what);
-    return numbers;
-  }
-
   std::string name_of(ex_entity_type kind, std::int64_t id, const char* unnamed) const {
     std::string name(longest_name + 1, '\0');
     if (ex_get_name(handle_.id(), kind, id, name.data()) < 0) name.clear();
@@ -191,8 +177,16 @@ class Reader {
     return name.empty() ? fmt::format("{}_{}", unnamed, id) : name;
   }
 
-  static int key_of(std::int64_t id) {
-    return static_cast<int>(std::clamp<std::int64_t>(id, 0, std::numeric_limits<int>::max()));
+  /// Files need not number nodes or elements, or may do so with the same number twice: their places are numbers, too.
+  std::vector<std::int64_t> tags(ex_entity_type kind, std::int64_t count, const std::string& what) const {
+    std::vector<std::int64_t> numbers(static_cast<std::size_t>(count));
+    if (count > 0) check(ex_get_id_map(handle_.id(), kind, numbers.data()), what);
+    std::vector<std::int64_t> ascending = numbers;
+    std::sort(ascending.begin(), ascending.end());
+    if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end()) {
+      std::iota(numbers.begin(), numbers.end(), std::int64_t{1});
+    }
+    return numbers;
   }
 
   void read_nodes() {
@@ -217,54 +211,71 @@ class Reader {
     for (const std::int64_t id : ids(EX_ELEM_BLOCK, sizes_.num_elem_blk, "numbers of the element blocks")) {
       read_block(id);
     }
-    if (static_cast<std::int64_t>(result_.n_elements()) != sizes_.num_elem) {
-      fail("{} elements announced, but the blocks have {}: the file is damaged", sizes_.num_elem, result_.n_elements());
+    if (n_passed_over_ + static_cast<std::int64_t>(result_.n_elements()) != sizes_.num_elem) {
+      fail("{} elements announced, but the blocks have {}: the file is damaged", sizes_.num_elem,
+           n_passed_over_ + static_cast<std::int64_t>(result_.n_elements()));
     }
   }
 
   void read_block(std::int64_t id) {
-    std::string type(MAX_STR_LENGTH + 1, '\0');
-    std::int64_t n_elements = 0, n_corners = 0, n_edges = 0, n_faces = 0, n_attributes = 0;
-    check(ex_get_block(handle_.id(), EX_ELEM_BLOCK, id, type.data(), &n_elements, &n_corners, &n_edges, &n_faces,
-                       &n_attributes),
+    Block block{id, "", std::string(MAX_STR_LENGTH + 1, '\0')};
+    std::int64_t n_edges = 0, n_faces = 0, n_attributes = 0;
+    check(ex_get_block(handle_.id(), EX_ELEM_BLOCK, id, block.type.data(), &block.n_elements, &block.n_nodes, &n_edges,
+                       &n_faces, &n_attributes),
           fmt::format("element block {}", id));
-    type.resize(std::min(type.find('\0'), type.size()));
-    const std::string name = name_of(EX_ELEM_BLOCK, id, "block");
-    if (n_elements == 0) return;
-    const Spelling& spelling = spelling_of(type, n_corners, name);
-    held(n_elements, n_corners * static_cast<std::int64_t>(sizeof(int)), "elements");
-    if (n_elements > sizes_.num_elem - static_cast<std::int64_t>(result_.n_elements())) {
+    block.type.resize(std::min(block.type.find('\0'), block.type.size()));
+    block.name = name_of(EX_ELEM_BLOCK, id, "block");
+    if (block.n_elements == 0) return;
+    if (block.n_elements > sizes_.num_elem - static_cast<std::int64_t>(element_at_.size()) || block.n_elements < 0) {
       fail("{} elements announced, but the blocks have more: the file is damaged", sizes_.num_elem);
     }
+    has_body(block.type) ? read_elements(block) : pass_over(block);
+  }
 
-    std::vector<std::int64_t> corners(static_cast<std::size_t>(n_elements * n_corners));
-    check(ex_get_conn(handle_.id(), EX_ELEM_BLOCK, id, corners.data(), nullptr, nullptr),
-          fmt::format("elements of block \"{}\"", name));
-    const int list = add_group({dimension(spelling.shape), key_of(id)}, name);
-    for (std::size_t e = 0; e < static_cast<std::size_t>(n_elements); ++e) {
-      const auto first = corners.begin() + static_cast<std::ptrdiff_t>(e) * n_corners;
-      add_element(spelling.shape, list, {first, first + n_corners});
-      shell_.push_back(spelling.is_shell || (spelling.shape == Shape::triangle && sizes_.num_dim == 3));
+  struct Block {
+    std::int64_t id;
+    std::string name, type;
+    std::int64_t n_elements = 0, n_nodes = 0;
+  };
+
+  void pass_over(const Block& block) {
+    element_at_.resize(element_at_.size() + static_cast<std::size_t>(block.n_elements), passed_over);
+    n_passed_over_ += block.n_elements;
+    result_.notes.push_back(fmt::format("the block \"{}\" is passed over: its {} elements of type \"{}\" have no body",
+                                        block.name, block.n_elements, excerpt(block.type)));
+  }
+
+  void read_elements(const Block& block) {
+    const PlaneOrSolid type = type_of(block);
+    held(block.n_elements, block.n_nodes * static_cast<std::int64_t>(sizeof(int)), "elements");
+    std::vector<std::int64_t> nodes(static_cast<std::size_t>(block.n_elements * block.n_nodes));
+    check(ex_get_conn(handle_.id(), EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
+          fmt::format("elements of block \"{}\"", block.name));
+    const bool is_shell = type.is_shell || (type.shape == Shape::triangle && sizes_.num_dim == 3);
+    side_numbering_.push_back({block.name, dimension(type.shape), is_shell});
+    if (dimension(type.shape) == 2) result_.n_plane_bodies += static_cast<std::size_t>(block.n_elements);
+    const int list = add_group(dimension(type.shape), block.name);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_elements); ++e) {
+      const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(e) * block.n_nodes;
+      add_element(type.shape, list, {first, first + block.n_nodes});
     }
   }
 
-  const Spelling& spelling_of(std::string type, std::int64_t n_corners, const std::string& block) const {
-    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::toupper(c); });
-    const auto* found = std::find_if(std::begin(spellings), std::end(spellings),
-                                     [&](const Spelling& spelling) { return type == spelling.name; });
-    if (found == std::end(spellings) || n_nodes(found->shape) != n_corners) {
-      fail(
-          "block \"{}\" has elements of type \"{}\" with {} nodes; allowed are TRI3, QUAD4, TETRA4, PYRAMID5, WEDGE6 "
-          "and HEX8",
-          block, excerpt(type), n_corners);
-    }
-    return *found;
+  PlaneOrSolid type_of(const Block& block) const {
+    if (const auto type = plane_or_solid(block.type, block.n_nodes)) return *type;
+    fail(
+        "block \"{}\" has elements of type \"{}\" with {} nodes; allowed are triangles (TRI), quadrangles (QUAD, "
+        "SHELL), "
+        "TETRA, PYRAMID, WEDGE and HEX, of first or second order",
+        block.name, excerpt(block.type), block.n_nodes);
   }
 
-  void add_element(Shape shape, int list, const std::vector<std::int64_t>& corners) {
-    const std::int64_t tag = numbers_[result_.n_elements()];
+  void add_element(Shape shape, int list, const std::vector<std::int64_t>& numbers) {
+    const std::int64_t tag = numbers_[element_at_.size()];
     std::vector<std::int64_t> nodes;
-    for (const std::int64_t corner : corners) nodes.push_back(node_tag(corner, fmt::format("element {}", tag)));
+    for (const std::int64_t number : numbers) nodes.push_back(node_tag(number, fmt::format("element {}", tag)));
+    element_at_.push_back(static_cast<int>(result_.n_elements()));
+    block_of_.push_back(static_cast<int>(side_numbering_.size()) - 1);
     result_.add_element(tag, shape, list, nodes);
   }
 
@@ -275,11 +286,11 @@ class Reader {
     return result_.node_tags[static_cast<std::size_t>(number - 1)];
   }
 
-  int add_group(const GroupKey& key, const std::string& name) {
-    if (!result_.group_names.emplace(key, name).second) {
-      fail("\"{}\" and \"{}\" have the same number {}", result_.group_names[key], name, key.second);
-    }
-    return result_.add_group_list({key.second});
+  /// Blocks and sets each have ids of their own, of up to 64 bits; here they are numbered in order.
+  int add_group(int dimension, const std::string& name) {
+    const int number = static_cast<int>(result_.group_names.size()) + 1;
+    result_.group_names[{dimension, number}] = name;
+    return result_.add_group_list({number});
   }
 
   // ---- sets ----
@@ -299,42 +310,116 @@ class Reader {
 
   /// Sides are appended after all elements, so that an element's number remains its place in the lists.
   void read_side_sets() {
-    const std::size_t n_body = result_.n_elements();
+    std::vector<Set> sets;
     for (const std::int64_t id : ids(EX_SIDE_SET, sizes_.num_side_sets, "numbers of the side sets")) {
-      const Set set = read_set(EX_SIDE_SET, id, "sides");
-      std::optional<int> list;
+      sets.push_back(read_set(EX_SIDE_SET, id, "sides"));
+    }
+    choose_side_numbering(sets);
+    for (const Set& set : sets) add_side_set(set);
+  }
+
+  /// A set with sides that its elements do not have is left out: perhaps nobody uses it.
+  void add_side_set(const Set& set) {
+    std::vector<std::vector<std::int64_t>> sides;
+    for (std::size_t i = 0; i < set.entries.size(); ++i) {
+      const int element = element_index(set, i);
+      sides.push_back(element == passed_over ? std::vector<std::int64_t>() : nodes_of_side(element, set.extra[i]));
+      if (!sides.back().empty()) continue;
+      result_.notes.push_back(fmt::format(
+          "the side set \"{}\" is left out: it has side {} of element {}, which is none of its edges or faces",
+          set.name, set.extra[i], numbers_[static_cast<std::size_t>(set.entries[i] - 1)]));
+      return;
+    }
+    std::map<int, int> list_of_dimension;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const Shape shape = side_shape(sides[i].size());
+      const auto [list, is_new] = list_of_dimension.emplace(dimension(shape), 0);
+      if (is_new) list->second = add_group(dimension(shape), set.name);
+      result_.add_element(static_cast<std::int64_t>(i) + 1, shape, list->second, sides[i]);
+      nodes_of_side_set_[set.name].insert(sides[i].begin(), sides[i].end());
+    }
+  }
+
+  /// Where the entry's element stands in the lists, or that it was passed over.
+  int element_index(const Set& set, std::size_t entry) const {
+    const std::int64_t element = set.entries[entry];
+    if (element < 1 || element > static_cast<std::int64_t>(element_at_.size())) {
+      fail("side set \"{}\" has element {}; allowed are 1 to {}", set.name, element, element_at_.size());
+    }
+    return element_at_[static_cast<std::size_t>(element - 1)];
+  }
+
+  /// The corners of a side, {} if the element has none of that number.
+  std::vector<std::int64_t> nodes_of_side(int element, std::int64_t side_number) const {
+    const auto e = static_cast<std::size_t>(element);
+    return nodes_of_side(e, side_number, side_numbering_[static_cast<std::size_t>(block_of_[e])].is_shell);
+  }
+
+  std::vector<std::int64_t> nodes_of_side(std::size_t element, std::int64_t side_number, bool is_shell) const {
+    const auto begin = result_.element_nodes.begin() + static_cast<std::ptrdiff_t>(result_.first_node[element]);
+    const auto& all = sides(element_type(result_.shapes[element]));
+    const std::int64_t side = side_number - 1 - (is_shell ? n_faces_of_shell : 0);
+    if (is_shell && side < 0 && side_number >= 1) return {begin, begin + n_nodes(result_.shapes[element])};
+    if (side < 0 || side >= static_cast<std::int64_t>(all.size())) return {};
+    std::vector<std::int64_t> nodes;
+    for (const int corner : all[static_cast<std::size_t>(side)]) nodes.push_back(begin[corner]);
+    return nodes;
+  }
+
+  // ---- the numbers of sides of plane elements: edges from 1, or, as of shells, after two faces ----
+
+  /// Files of plane elements in three dimensions have one or the other, whatever the elements are called. The right one
+  /// is that by which more of the sides are edges of the body, or faces beside solid elements.
+  void choose_side_numbering(const std::vector<Set>& sets) {
+    if (sizes_.num_dim != 3) return;
+    const auto edges = boundary_edges();
+    if (edges.empty()) return;
+    for (std::size_t b = 0; b < side_numbering_.size(); ++b) {
+      SideNumbering& numbering = side_numbering_[b];
+      if (numbering.dimension != 2) continue;
+      const bool usual = numbering.is_shell;
+      const int n_usual = n_sides_at_boundary(sets, static_cast<int>(b), usual, edges);
+      const int n_other = n_sides_at_boundary(sets, static_cast<int>(b), !usual, edges);
+      if (n_other <= n_usual) continue;
+      numbering.is_shell = !usual;
+      result_.notes.push_back(
+          fmt::format("sides of the block \"{}\" are taken as numbered {}: as that, {} of them are at "
+                      "the boundary, otherwise {}",
+                      numbering.block, usual ? "from the first edge" : "after two faces", n_other, n_usual));
+    }
+  }
+
+  using Edge = std::pair<std::int64_t, std::int64_t>;
+  static Edge edge_of(const std::vector<std::int64_t>& nodes) { return std::minmax(nodes[0], nodes[1]); }
+
+  /// Edges that one plane element has.
+  std::set<Edge> boundary_edges() const {
+    std::map<Edge, int> n_elements;
+    for (std::size_t e = 0; e < result_.n_elements(); ++e) {
+      if (dimension(result_.shapes[e]) != 2) continue;
+      for (int side = 1; side <= n_nodes(result_.shapes[e]); ++side)
+        ++n_elements[edge_of(nodes_of_side(e, side, false))];
+    }
+    std::set<Edge> edges;
+    for (const auto& [edge, n] : n_elements) {
+      if (n == 1) edges.insert(edge);
+    }
+    return edges;
+  }
+
+  int n_sides_at_boundary(const std::vector<Set>& sets, int block, bool is_shell, const std::set<Edge>& edges) const {
+    const bool has_solids =
+        std::any_of(result_.shapes.begin(), result_.shapes.end(), [](Shape shape) { return dimension(shape) == 3; });
+    int n = 0;
+    for (const Set& set : sets) {
       for (std::size_t i = 0; i < set.entries.size(); ++i) {
-        const std::size_t element = element_index(set, i, n_body);
-        const std::vector<std::int64_t> nodes = nodes_of_side(set, element, set.extra[i]);
-        const int element_dimension = dimension(result_.shapes[element]);
-        if (!list) list = add_group({element_dimension - 1, key_of(id)}, set.name);
-        result_.add_element(static_cast<std::int64_t>(i) + 1, side_shape(element_dimension, nodes.size()), *list,
-                            nodes);
-        nodes_of_side_set_[set.name].insert(nodes.begin(), nodes.end());
+        const int element = element_index(set, i);
+        if (element == passed_over || block_of_[static_cast<std::size_t>(element)] != block) continue;
+        const auto nodes = nodes_of_side(static_cast<std::size_t>(element), set.extra[i], is_shell);
+        n += nodes.size() == 2 ? static_cast<int>(edges.count(edge_of(nodes))) : !nodes.empty() && has_solids ? 1 : 0;
       }
     }
-  }
-
-  std::size_t element_index(const Set& set, std::size_t entry, std::size_t n_body) const {
-    const std::int64_t element = set.entries[entry];
-    if (element < 1 || element > static_cast<std::int64_t>(n_body)) {
-      fail("side set \"{}\" has element {}; allowed are 1 to {}", set.name, element, n_body);
-    }
-    return static_cast<std::size_t>(element - 1);
-  }
-
-  std::vector<std::int64_t> nodes_of_side(const Set& set, std::size_t element, std::int64_t side_number) const {
-    const auto& all = sides(element_type(result_.shapes[element]));
-    const std::int64_t side = side_number - 1 - (shell_[element] ? first_side_of_shell : 0);
-    if (side < 0 || side >= static_cast<std::int64_t>(all.size())) {
-      fail("side set \"{}\" has side {} of element {}, which is none of its edges or faces", set.name, side_number,
-           result_.element_tags[element]);
-    }
-    std::vector<std::int64_t> nodes;
-    for (const int corner : all[static_cast<std::size_t>(side)]) {
-      nodes.push_back(result_.element_nodes[result_.first_node[element] + static_cast<std::size_t>(corner)]);
-    }
-    return nodes;
+    return n;
   }
 
   void read_node_sets() {
@@ -348,7 +433,7 @@ class Reader {
       if (same_name != nodes_of_side_set_.end()) {
         fail("a node set and a side set are called \"{}\", but have different nodes; give each its own name", set.name);
       }
-      const int list = add_group({0, key_of(id)}, set.name);
+      const int list = add_group(0, set.name);
       for (const std::int64_t node : nodes) result_.add_element(node, Shape::point, list, {node});
     }
   }
@@ -358,8 +443,11 @@ class Reader {
   Handle handle_;
   ex_init_params sizes_{};
   MeshFile result_;
-  std::vector<std::int64_t> numbers_;  ///< of the elements
-  std::vector<char> shell_;            ///< by element: its first two sides are its faces
+  std::vector<std::int64_t> numbers_;  ///< of the file's elements
+  std::vector<int> element_at_;        ///< by place in the file: index of the element, or passed_over
+  std::int64_t n_passed_over_ = 0;
+  std::vector<int> block_of_;  ///< by index of an element, place in side_numbering_
+  std::vector<SideNumbering> side_numbering_;
   std::map<std::string, std::set<std::int64_t>> nodes_of_side_set_;
 };
 

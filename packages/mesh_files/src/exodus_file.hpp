@@ -8,7 +8,7 @@ namespace perimorph::mesh_files {
 /// the name and nodes of a side set is the same group. What has no name is called by its number: "block_1", "nodes_2",
 /// "sides_3". Local.
 /// @throws UserError if the file cannot be read, is truncated or damaged, announces more than it can hold, or has
-///         elements of another type than TRI3, QUAD4, TETRA4, PYRAMID5, WEDGE6, HEX8.
+///         elements of an unknown type; bars, spheres and the like are passed over with a note.
 MeshFile read_exodus_file(const std::string& file);
 
 }  // namespace perimorph::mesh_files

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -29,15 +30,28 @@ std::string read_whole_file(const std::string& file) {
   return text;
 }
 
-/// The whole token as a number.
-template <class T>
-bool parse(std::string_view token, T& value) {
-  const char* end = token.data() + token.size();
-  const auto [stop, error] = std::from_chars(token.data(), end, value);
-  return error == std::errc() && stop == end;
+/// Unlike the standard library's, as C has it: "+1" is a number.
+std::string_view without_plus(std::string_view text) {
+  const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  return text.substr(has_plus ? 1 : 0);
 }
 
 }  // namespace
+
+bool parse_number(std::string_view text, std::int64_t& value) {
+  const std::string_view digits = without_plus(text);
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  return error == std::errc() && stop == end;
+}
+
+bool parse_number(std::string_view text, double& value) {
+  const std::string_view digits = without_plus(text);
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  if (error == std::errc::result_out_of_range) value = std::strtod(std::string(digits).c_str(), nullptr);
+  return error != std::errc::invalid_argument && stop == end;
+}
 
 std::string excerpt(std::string_view text) {
   constexpr std::size_t longest = 40;
@@ -107,6 +121,11 @@ void FileCursor::skip_to_line(const std::string& words) {
   skip_white_space();
 }
 
+void FileCursor::skip_past_line(const std::string& words) {
+  skip_to_line(words);
+  line();
+}
+
 std::string_view FileCursor::token() {
   if (at_end()) fail_truncated();
   const std::size_t end = std::min(text_.find_first_of(white_space, position_), text_.size());
@@ -126,18 +145,20 @@ int FileCursor::ascii_int() {
 std::int64_t FileCursor::ascii_long() {
   const std::string_view word = token();
   std::int64_t value = 0;
-  if (!parse(word, value)) fail(fmt::format("a whole number expected, found \"{}\"", excerpt(word)));
+  if (!parse_number(word, value)) fail(fmt::format("a whole number expected, found \"{}\"", excerpt(word)));
   return value;
 }
 
 double FileCursor::next_real() {
-  double value = 0.;
-  if (binary_) {
-    value = raw<double>();
-  } else if (const std::string_view word = token(); !parse(word, value)) {
-    fail(fmt::format("a number expected, found \"{}\"", excerpt(word)));
-  }
+  const double value = binary_ ? raw<double>() : ascii_real();
   if (!std::isfinite(value)) fail(fmt::format("a coordinate is {}", value));
+  return value;
+}
+
+double FileCursor::ascii_real() {
+  const std::string_view word = token();
+  double value = 0.;
+  if (!parse_number(word, value)) fail(fmt::format("a number expected, found \"{}\"", excerpt(word)));
   return value;
 }
 

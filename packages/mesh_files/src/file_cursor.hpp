@@ -31,12 +31,16 @@ class FileCursor {
   /// The rest of the current line as it is, for columns of fixed width.
   std::string raw_line();
 
+  /// Whether this character follows.
+  bool next_is(char character) const { return remaining() > 0 && text_[position_] == character; }
+
   /// Skips white space and exactly these words.
   /// @throws base::UserError if others follow
   void expect(const std::string& words);
 
   /// Moves to the start of the next line that begins with these words.
   void skip_to_line(const std::string& words);
+  void skip_past_line(const std::string& words);
 
   /// The next number; an int has 4 bytes in binary data, a long 8.
   int next_int() { return binary_ ? raw<int>() : ascii_int(); }
@@ -46,6 +50,7 @@ class FileCursor {
   /// Numbers that are text even in binary files.
   int ascii_int();
   std::int64_t ascii_long();
+  double ascii_real();
 
   /// Moves past the line break that ends a line of text before binary data.
   void skip_line_break();
@@ -82,6 +87,10 @@ class FileCursor {
 
 /// @throws base::UserError unless the file is a regular one (a pipe could wait for ever) and is not empty.
 void require_regular_file(const std::string& file, const std::string& wanted);
+
+/// The whole of a text as a number, with or without a sign. Returns whether it is one; those too small are 0.
+bool parse_number(std::string_view text, std::int64_t& value);
+bool parse_number(std::string_view text, double& value);
 
 /// The printable beginning of a text, for error messages.
 std::string excerpt(std::string_view text);

@@ -1,8 +1,10 @@
-// The MSH 2.2 and 4.1 formats, as in "File formats" of gmsh's manual.
+// The MSH formats 2.0 to 4.1, as in "File formats" of gmsh's manual (that of 4.8 for 4.x; the older ones as gmsh reads
+// and writes them).
 
 #include "gmsh_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 
@@ -13,33 +15,33 @@ namespace perimorph::mesh_files {
 
 namespace {
 
-constexpr int no_groups = 0;  // index into MeshFile::group_lists
+constexpr int no_groups = 0;       // index into MeshFile::group_lists
+constexpr int any_dimension = -1;  // of a name in 2.0
+
+/// A kind of elements: its shape, and how many nodes it has, the corners first.
+struct Kind {
+  Shape shape;
+  int n_nodes;
+};
 
 /// By gmsh's numbers of kinds of elements (its manual, "Node ordering" and "MSH file format").
-const std::map<int, Shape> shapes = {{15, Shape::point},     {1, Shape::line},        {2, Shape::triangle},
-                                     {3, Shape::quadrangle}, {4, Shape::tetrahedron}, {5, Shape::hexahedron},
-                                     {6, Shape::wedge},      {7, Shape::pyramid}};
+const std::map<int, Kind> kinds = {
+    {15, {Shape::point, 1}},        {1, {Shape::line, 2}},        {8, {Shape::line, 3}},
+    {2, {Shape::triangle, 3}},      {9, {Shape::triangle, 6}},    {3, {Shape::quadrangle, 4}},
+    {10, {Shape::quadrangle, 9}},   {16, {Shape::quadrangle, 8}}, {4, {Shape::tetrahedron, 4}},
+    {11, {Shape::tetrahedron, 10}}, {5, {Shape::hexahedron, 8}},  {12, {Shape::hexahedron, 27}},
+    {17, {Shape::hexahedron, 20}},  {6, {Shape::wedge, 6}},       {13, {Shape::wedge, 18}},
+    {18, {Shape::wedge, 15}},       {7, {Shape::pyramid, 5}},     {14, {Shape::pyramid, 14}},
+    {19, {Shape::pyramid, 13}}};
 
-const Advice advice = {
-    "mesh it with gmsh -2 (or -3), and put what is to be computed into a physical surface (or volume)",
-    "Take points that only help to draw (such as the centre of a circle) out of the physical groups, and put all that "
-    "is "
-    "to be computed into a physical surface (or volume)",
-    "If a whole surface is reversed, write its curve loop in the .geo file the other way round, or add  ReverseMesh "
-    "Surface{...};"};
-
-std::string name_of_other_kind(int number) {
-  static const std::map<int, const char*> names = {
-      {8, "3-node line"},         {9, "6-node triangle"}, {10, "9-node quadrangle"}, {11, "10-node tetrahedron"},
-      {12, "27-node hexahedron"}, {13, "18-node prism"},  {14, "14-node pyramid"},   {16, "8-node quadrangle"},
-      {17, "20-node hexahedron"}, {18, "15-node prism"},  {19, "13-node pyramid"}};
-  const auto found = names.find(number);
-  return found == names.end() ? fmt::format("of gmsh's kind {}", number)
-                              : fmt::format("a {} (gmsh's kind {})", found->second, number);
-}
+const char* const advice =
+    "mesh it with gmsh -2 (or -3), and put what is to be computed into a physical surface (or volume)";
 
 /// A negative number stands for the group with reversed orientation.
 int group_number(int signed_number) { return static_cast<int>(std::abs(static_cast<long>(signed_number))); }
+
+/// A point, curve, surface or volume: its dimension and number.
+using Entity = std::pair<int, int>;
 
 /// Reads one file from front to back.
 class Reader {
@@ -51,40 +53,58 @@ class Reader {
 
   MeshFile read() {
     read_format();
-    while (!cursor_.at_end()) read_section();
+    while (skip_to_section()) read_section();
     for (const char* needed : {"$Nodes", "$Elements"}) {
       if (sections_.count(needed) == 0) {
         cursor_.fail(fmt::format("the file ends without {}: it is truncated or holds no mesh", needed));
       }
     }
+    check_all_partitions_are_there();
+    put_elements_in_groups();
     name_the_unnamed();
     return std::move(result_);
   }
 
  private:
+  // ---- the file's frame ----
+
+  /// Lines outside sections are comments, as to gmsh.
+  bool skip_to_section() {
+    while (!cursor_.at_end() && !cursor_.next_is('$')) cursor_.line();
+    return !cursor_.at_end();
+  }
+
   void read_format() {
-    if (const std::string first = cursor_.line(); first != "$MeshFormat") {
-      cursor_.fail(fmt::format("not a gmsh mesh: its first line must be $MeshFormat, found \"{}\"", excerpt(first)));
+    const std::string first = cursor_.line();
+    std::string name = first;
+    while (name != "$MeshFormat") {
+      if (name == "$Comments") cursor_.skip_past_line("$EndComments");
+      const bool is_other_section = !name.empty() && name[0] == '$' && name != "$Comments";
+      if (is_other_section || !skip_to_section()) {
+        cursor_.fail(fmt::format("not a gmsh mesh: its first section must be $MeshFormat, found \"{}\"",
+                                 excerpt(is_other_section ? name : first)));
+      }
+      name = cursor_.line();
     }
-    const std::string description = cursor_.line();
-    const std::string version = description.substr(0, description.find(' '));
-    const std::string rest = description.substr(version.size());
-    if (version != "4.1" && version != "2.2") {
+    const double version = cursor_.ascii_real();
+    const std::int64_t type = cursor_.ascii_long(), size = cursor_.ascii_long();
+    version_ = static_cast<int>(std::lround(10. * version));
+    if (!(version >= 2. && version < 3.) && version != 3. && version != 4. && version != 4.1) {
       cursor_.fail(
-          fmt::format("MSH version \"{}\"; allowed are 4.1 and 2.2 (convert it: gmsh -save -format msh41 -o new.msh "
+          fmt::format("MSH version {}; allowed are 2.0 to 4.1 (convert it: gmsh -save -format msh41 -o new.msh "
                       "old.msh)",
-                      excerpt(version)));
+                      version));
     }
-    if (rest != " 0 8" && rest != " 1 8") {
-      cursor_.fail(fmt::format("\"{} 0 8\" (ASCII) or \"{} 1 8\" (binary) expected, found \"{}\"", version, version,
-                               excerpt(description)));
+    if (type < 0 || type > 1 || (type == 1 && size != 8)) {
+      cursor_.fail(
+          fmt::format("after the version \"0 8\" (ASCII) or \"1 8\" (binary) expected, found \"{} {}\"", type, size));
     }
-    is_4_1_ = version == "4.1";
-    if (rest == " 1 8") read_byte_order();
+    if (type == 1) read_byte_order();
     cursor_.expect("$EndMeshFormat");
   }
 
   void read_byte_order() {
+    cursor_.skip_line_break();
     cursor_.set_binary();
     if (const int one = cursor_.next_int(); one == 0x01000000) {
       cursor_.fail(
@@ -97,110 +117,206 @@ class Reader {
 
   void read_section() {
     const std::string name = cursor_.line();
-    if (name.size() < 2 || name[0] != '$') {
+    if (name.size() < 2 || name.rfind("$End", 0) == 0) {
       cursor_.fail(fmt::format("a section such as $Nodes expected, found \"{}\"", excerpt(name)));
-    }
-    if (name == "$PartitionedEntities") {
-      cursor_.fail(
-          "the mesh is partitioned: save it whole (without -part), the ranks' parts are made when a run starts");
     }
     sections_.insert(name);
     const std::string end = "$End" + name.substr(1);
     if (name == "$PhysicalNames") {
       read_names();
-    } else if (name == "$Entities" && is_4_1_) {
-      read_entities();
+    } else if (name == "$Entities" && version_ >= 30) {
+      version_ == 30 ? read_entities_3() : read_entities_4();
+    } else if (name == "$PartitionedEntities" && version_ >= 40) {
+      read_partitioned_entities();
     } else if (name == "$Nodes") {
-      is_4_1_ ? read_nodes_4_1() : read_nodes_2_2();
+      version_ >= 40 ? read_nodes_4() : read_nodes_before_4();
     } else if (name == "$Elements") {
-      is_4_1_ ? read_elements_4_1() : read_elements_2_2();
+      version_ >= 40 ? read_elements_4() : read_elements_before_4();
     } else {
       cursor_.skip_to_line(end);
     }
     cursor_.expect(end);
   }
 
-  /// Text in all flavours: count, then lines: dimension number "name".
+  /// Text in all flavours: count, then lines: dimension (not in 2.0), number, name, which some programs write without
+  /// quotes.
   void read_names() {
     for (std::int64_t n = cursor_.ascii_long(); n > 0; --n) {
-      const int dimension = cursor_.ascii_int(), number = cursor_.ascii_int();
-      const std::string name = cursor_.line();
-      if (name.size() < 2 || name.front() != '"' || name.back() != '"') {
-        cursor_.fail(
-            fmt::format("the name of physical group {} must be in double quotes, found \"{}\"", number, excerpt(name)));
+      const int dimension = version_ == 20 ? any_dimension : cursor_.ascii_int(), number = cursor_.ascii_int();
+      std::string name = cursor_.line();
+      if (const std::size_t begin = name.find('"'); begin != std::string::npos) {
+        const std::size_t end = name.find('"', begin + 1);
+        if (end == std::string::npos) {
+          cursor_.fail(
+              fmt::format("the name of physical group {} has one quote only, found \"{}\"", number, excerpt(name)));
+        }
+        name = name.substr(begin + 1, end - begin - 1);
       }
-      result_.group_names[{dimension, number}] = name.substr(1, name.size() - 2);
+      names_[{dimension, number}] = name;
     }
   }
 
-  // ---- 4.1: points, curves, surfaces and volumes (entities) have groups; nodes and elements come by entity ----
+  // ---- 3.0 and 4.x: points, curves, surfaces and volumes (entities) have groups; elements name their entity ----
 
-  void read_entities() {
+  std::vector<int> read_groups() {
+    std::vector<int> groups(cursor_.checked(cursor_.next_long(), 1, 4));
+    for (auto& group : groups) group = group_number(cursor_.next_int());
+    return groups;
+  }
+
+  /// Numbers of nodes and elements have 8 bytes in 4.1, before it 4.
+  std::int64_t next_tag() { return version_ == 41 ? cursor_.next_long() : cursor_.next_int(); }
+
+  void skip_list() {
+    for (std::size_t n = cursor_.checked(cursor_.next_long(), 1, 4); n > 0; --n) cursor_.next_int();
+  }
+
+  void read_entities_4() {
+    read_all_entities([this](int dimension) {
+      const int number = cursor_.next_int();
+      skip_box(dimension);
+      const auto groups = read_groups();
+      if (dimension > 0) skip_list();  // its boundary
+      groups_of_[{dimension, number}] = result_.add_group_list(groups);
+    });
+  }
+
+  /// In 3.0 all is text, the boundary comes first, and there is no box.
+  void read_entities_3() {
     std::array<std::size_t, 4> counts;
-    for (auto& count : counts) count = cursor_.checked(cursor_.next_long(), 5, 36);
+    for (auto& count : counts) count = static_cast<std::size_t>(std::max(0, cursor_.ascii_int()));
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      for (std::size_t i = 0; i < counts[dimension]; ++i) {
+        const int number = cursor_.ascii_int();
+        if (dimension > 0) read_text_list();
+        groups_of_[{dimension, number}] = result_.add_group_list(read_text_list());
+      }
+    }
+  }
+
+  std::vector<int> read_text_list() {
+    std::vector<int> groups;
+    for (int n = cursor_.ascii_int(); n > 0; --n) groups.push_back(group_number(cursor_.ascii_int()));
+    return groups;
+  }
+
+  /// An entity of a partition has the groups of the one that it is a part of. Those between partitions, which are of
+  /// lower dimension than that, have none.
+  void read_partitioned_entities() {
+    n_partitions_ = cursor_.next_long();
+    for (std::size_t n = cursor_.checked(cursor_.next_long(), 2, 8); n > 0; --n) {  // ghosts: entity, partition
+      cursor_.next_int();
+      cursor_.next_int();
+    }
+    read_all_entities([this](int dimension) {
+      const int number = cursor_.next_int(), parent_dimension = cursor_.next_int(), parent = cursor_.next_int();
+      std::vector<int> partitions(cursor_.checked(cursor_.next_long(), 1, 4));
+      for (int& partition : partitions) partition = cursor_.next_int();
+      if (partitions.size() == 1) partitions_.insert(partitions[0]);  // others are of what lies between partitions
+      skip_box(dimension);
+      read_groups();
+      if (dimension > 0) skip_list();
+      parents_[{dimension, number}] = {parent_dimension, parent};
+    });
+  }
+
+  template <class ReadEntity>
+  void read_all_entities(ReadEntity read_entity) {
+    std::array<std::size_t, 4> counts;
+    for (auto& count : counts) count = cursor_.checked(cursor_.next_long(), 2, 8);
     for (int dimension = 0; dimension < 4; ++dimension) {
       for (std::size_t i = 0; i < counts[dimension]; ++i) read_entity(dimension);
     }
   }
 
-  void read_entity(int dimension) {
-    const int number = cursor_.next_int();
-    const int n_box = dimension == 0 ? 3 : 6;
-    for (int i = 0; i < n_box; ++i) cursor_.next_real();
-    std::vector<int> groups(cursor_.checked(cursor_.next_long(), 1, 4));
-    for (auto& group : groups) group = group_number(cursor_.next_int());
-    if (!groups.empty()) list_of_entity_[{dimension, number}] = result_.add_group_list(groups);
-    if (dimension == 0) return;
-    for (std::size_t n = cursor_.checked(cursor_.next_long(), 1, 4); n > 0; --n) cursor_.next_int();
+  void skip_box(int dimension) {
+    const int n = dimension == 0 && version_ == 41 ? 3 : 6;
+    for (int i = 0; i < n; ++i) cursor_.next_real();
   }
 
-  void read_nodes_4_1() {
+  void check_all_partitions_are_there() {
+    if (n_partitions_ <= static_cast<std::int64_t>(partitions_.size())) return;
+    cursor_.fail(fmt::format("the file holds partition {} of {} only: save the mesh as one file (without -part_split)",
+                             fmt::join(partitions_, ", "), n_partitions_));
+  }
+
+  /// The place in group_lists for elements of an entity, filled when all of the file is read.
+  int list_of_entity(const Entity& entity) {
+    const auto [found, is_new] = list_of_entity_.emplace(entity, no_groups);
+    if (is_new) found->second = result_.add_group_list({});
+    return found->second;
+  }
+
+  void put_elements_in_groups() {
+    for (const auto& [entity, list] : list_of_entity_) {
+      const auto part = parents_.find(entity);
+      const Entity whole = part == parents_.end() ? entity : part->second;
+      const auto groups = groups_of_.find(whole);
+      if (groups == groups_of_.end() || whole.first != entity.first) continue;
+      result_.group_lists[list] = result_.group_lists[groups->second];
+    }
+  }
+
+  // ---- 4.x: nodes and elements come by entity ----
+
+  void read_nodes_4() {
     const std::size_t n_blocks = cursor_.checked(cursor_.next_long(), 4, 20);
-    const std::size_t n_nodes = cursor_.checked(cursor_.next_long(), 4, 32);
-    cursor_.next_long();  // smallest tag
-    cursor_.next_long();  // largest tag
+    const std::size_t n_nodes = cursor_.checked(cursor_.next_long(), 4, 28);
+    skip_range();
     reserve_nodes(n_nodes);
     for (std::size_t b = 0; b < n_blocks; ++b) read_node_block();
     check_total("nodes", n_nodes, result_.node_tags.size());
   }
 
+  /// 4.1 says which numbers are the smallest and the largest.
+  void skip_range() {
+    if (version_ != 41) return;
+    cursor_.next_long();
+    cursor_.next_long();
+  }
+
+  /// 4.0 has the number first, 4.1 the dimension.
+  Entity next_entity() {
+    const int first = cursor_.next_int(), second = cursor_.next_int();
+    return version_ == 41 ? Entity{first, second} : Entity{second, first};
+  }
+
   void read_node_block() {
-    const int dimension = cursor_.next_int();
-    cursor_.next_int();  // entity
-    const int parametric = cursor_.next_int();
-    const std::size_t n = cursor_.checked(cursor_.next_long(), 4, 32);
-    for (std::size_t i = 0; i < n; ++i) result_.node_tags.push_back(cursor_.next_long());
+    const int dimension = next_entity().first;
+    const int n_parameters = cursor_.next_int() == 0 ? 0 : dimension;
+    const std::size_t n = cursor_.checked(cursor_.next_long(), 4, 28);
+    if (version_ == 41) {
+      for (std::size_t i = 0; i < n; ++i) result_.node_tags.push_back(cursor_.next_long());
+    }
     for (std::size_t i = 0; i < n; ++i) {
+      if (version_ == 40) result_.node_tags.push_back(cursor_.next_int());
       read_coordinates();
-      for (int p = 0; p < dimension && parametric != 0; ++p) cursor_.next_real();
+      for (int p = 0; p < n_parameters; ++p) cursor_.next_real();
     }
   }
 
-  void read_elements_4_1() {
+  void read_elements_4() {
     const std::size_t n_blocks = cursor_.checked(cursor_.next_long(), 4, 20);
-    const std::size_t n_elements = cursor_.checked(cursor_.next_long(), 2, 16);
-    cursor_.next_long();  // smallest tag
-    cursor_.next_long();  // largest tag
+    const std::size_t n_elements = cursor_.checked(cursor_.next_long(), 2, 8);
+    skip_range();
     reserve_elements(n_elements);
     for (std::size_t b = 0; b < n_blocks; ++b) read_element_block();
     check_total("elements", n_elements, result_.n_elements());
   }
 
   void read_element_block() {
-    const int dimension = cursor_.next_int(), entity = cursor_.next_int(), kind = cursor_.next_int();
-    const auto list = list_of_entity_.find({dimension, entity});
-    const int groups = list == list_of_entity_.end() ? no_groups : list->second;
-    for (std::size_t n = cursor_.checked(cursor_.next_long(), 2, 16); n > 0; --n) {
-      const std::int64_t tag = cursor_.next_long();
-      begin_element(tag, kind, groups);
-      for (int i = 0; i < n_nodes(result_.shapes.back()); ++i) result_.element_nodes.push_back(cursor_.next_long());
-      result_.end_element();
+    const Entity entity = next_entity();
+    const int kind = cursor_.next_int();
+    const int groups = list_of_entity(entity);
+    for (std::size_t n = cursor_.checked(cursor_.next_long(), 2, 8); n > 0; --n) {
+      const std::int64_t tag = next_tag();
+      read_corners(tag, kind_of(tag, kind), groups);
     }
   }
 
-  // ---- 2.2: counts are text, numbers have 4 bytes; each element carries its group ----
+  // ---- before 4: counts are text, numbers have 4 bytes ----
 
-  void read_nodes_2_2() {
+  void read_nodes_before_4() {
     const std::int64_t count = cursor_.ascii_long();
     skip_to_data();
     const std::size_t n_nodes = cursor_.checked(count, 4, 28);
@@ -208,23 +324,44 @@ class Reader {
     for (std::size_t i = 0; i < n_nodes; ++i) {
       result_.node_tags.push_back(cursor_.next_int());
       read_coordinates();
+      if (version_ == 30) skip_place_on_entity();
     }
   }
 
-  void read_elements_2_2() {
+  void skip_place_on_entity() {
+    if (cursor_.next_int() == 0) return;
+    for (int dimension = cursor_.next_int(); dimension > 0; --dimension) cursor_.next_real();
+  }
+
+  void read_elements_before_4() {
     const std::int64_t count = cursor_.ascii_long();
     skip_to_data();
     const std::size_t n_elements = cursor_.checked(count, 4, 8);
     reserve_elements(n_elements);
     while (result_.n_elements() < n_elements) {
-      cursor_.binary() ? read_binary_run(n_elements - result_.n_elements()) : read_ascii_element();
+      if (version_ == 30) {
+        read_element_3();
+      } else if (cursor_.binary()) {
+        read_binary_run(n_elements - result_.n_elements());
+      } else {
+        read_element();
+      }
     }
   }
 
+  /// number, kind, entity, count of what follows: nodes, then partitions
+  void read_element_3() {
+    const int number = cursor_.next_int(), type = cursor_.next_int(), entity = cursor_.next_int();
+    const int n_numbers = cursor_.next_int();
+    const Kind& kind = kind_of(number, type);
+    read_corners(number, kind, list_of_entity({dimension(kind.shape), entity}));
+    for (int n = n_numbers - kind.n_nodes; n > 0; --n) cursor_.next_int();
+  }
+
   /// number, kind, number of tags, tags, nodes
-  void read_ascii_element() {
+  void read_element() {
     const int number = cursor_.next_int(), kind = cursor_.next_int(), n_tags = cursor_.next_int();
-    read_element_2_2(number, kind, n_tags);
+    read_tags_and_corners(number, kind, n_tags);
   }
 
   /// kind, number of elements, number of tags; then for each element its number, tags, nodes
@@ -236,19 +373,17 @@ class Reader {
     }
     for (int i = 0; i < n_elements; ++i) {
       const int number = cursor_.next_int();
-      read_element_2_2(number, kind, n_tags);
+      read_tags_and_corners(number, kind, n_tags);
     }
   }
 
-  void read_element_2_2(int number, int kind, int n_tags) {
+  void read_tags_and_corners(int number, int kind, int n_tags) {
     int group = 0;  // the first tag; 0 is none
     for (int t = 0; t < n_tags; ++t) {
       const int tag = cursor_.next_int();
       if (t == 0) group = group_number(tag);
     }
-    begin_element(number, kind, list_of_group(group));
-    for (int i = 0; i < n_nodes(result_.shapes.back()); ++i) result_.element_nodes.push_back(cursor_.next_int());
-    result_.end_element();
+    read_corners(number, kind_of(number, kind), list_of_group(group));
   }
 
   int list_of_group(int group) {
@@ -257,7 +392,7 @@ class Reader {
     return found != list_of_group_.end() ? found->second : list_of_group_[group] = result_.add_group_list({group});
   }
 
-  // ---- common to both ----
+  // ---- common to all ----
 
   void skip_to_data() {
     if (cursor_.binary()) cursor_.skip_line_break();
@@ -280,15 +415,23 @@ class Reader {
     for (auto& x : point) x = cursor_.next_real();
   }
 
-  void begin_element(std::int64_t tag, int kind, int groups) {
-    const auto shape = shapes.find(kind);
-    if (shape == shapes.end()) {
-      cursor_.fail(
-          fmt::format("element {} is {}; allowed are 3-node triangles and 4-node quadrangles in 2D, 4-node tetrahedra, "
-                      "5-node pyramids, 6-node prisms and 8-node hexahedra in 3D (with Mesh.ElementOrder = 1)",
-                      tag, name_of_other_kind(kind)));
-    }
-    result_.begin_element(tag, shape->second, groups);
+  const Kind& kind_of(std::int64_t element, int number) const {
+    const auto kind = kinds.find(number);
+    if (kind != kinds.end()) return kind->second;
+    cursor_.fail(
+        fmt::format("element {} is of gmsh's kind {}; allowed are triangles and quadrangles in 2D, tetrahedra, "
+                    "pyramids, prisms and hexahedra in 3D, of first or second order (Mesh.ElementOrder)",
+                    element, number));
+  }
+
+  void read_corners(std::int64_t tag, const Kind& kind, int groups) {
+    result_.begin_element(tag, kind.shape, groups);
+    const int n_corners = n_nodes(kind.shape);
+    for (int i = 0; i < n_corners; ++i) result_.element_nodes.push_back(next_tag());
+    result_.end_element();
+    if (kind.n_nodes == n_corners) return;
+    for (int i = n_corners; i < kind.n_nodes; ++i) result_.mid_nodes.push_back(next_tag());
+    ++result_.n_second_order[dimension(kind.shape)];
   }
 
   void name_the_unnamed() {
@@ -296,12 +439,19 @@ class Reader {
     for (std::size_t e = 0; e < result_.n_elements(); ++e) {
       const int dimension_of_element = dimension(result_.shapes[e]);
       for (const int group : result_.group_lists[result_.element_groups[e]]) {
-        const GroupKey key{dimension_of_element, group};
-        if (result_.group_names.count(key) == 0) {
-          result_.group_names[key] = fmt::format("{}_{}", entities[dimension_of_element], group);
-        }
+        std::string& name = result_.group_names[{dimension_of_element, group}];
+        if (name.empty()) name = name_of({dimension_of_element, group});
+        if (name.empty()) name = fmt::format("{}_{}", entities[dimension_of_element], group);
       }
     }
+  }
+
+  /// As given in the file, or "".
+  std::string name_of(const GroupKey& group) const {
+    for (const int dimension : {group.first, any_dimension}) {
+      if (const auto found = names_.find({dimension, group.second}); found != names_.end()) return found->second;
+    }
+    return "";
   }
 
   void check_total(const char* what, std::size_t announced, std::size_t found) {
@@ -311,10 +461,15 @@ class Reader {
 
   FileCursor cursor_;
   MeshFile result_;
-  bool is_4_1_ = false;
+  int version_ = 0;  // 22 for 2.2
   std::set<std::string> sections_;
-  std::map<GroupKey, int> list_of_entity_;  // 4.1: by dimension and number of the entity
-  std::map<int, int> list_of_group_;        // 2.2
+  std::map<GroupKey, std::string> names_;
+  std::map<Entity, int> groups_of_;       // place in group_lists of an entity's groups
+  std::map<Entity, int> list_of_entity_;  // place in group_lists that an entity's elements have
+  std::map<Entity, Entity> parents_;      // of a partition's entity: what it is a part of
+  std::int64_t n_partitions_ = 0;
+  std::set<int> partitions_;
+  std::map<int, int> list_of_group_;  // 2.x
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ using mesh::SideKey;
 
 namespace {
 
+constexpr int unused = -1, unnumbered = 0;         // nodes of the file: without, and as yet without number in the mesh
 constexpr double smallest_allowed_volume = 1e-10;  // at a corner, relative to its edges
 constexpr double flatness = 1e-10;                 // of z, relative to the body's size
 constexpr std::size_t most_listed = 5;             // items shown in an error message
@@ -52,13 +53,14 @@ class MeshBuilder {
   MeshBuilder(const MeshFile& file, double scale) : file_(file), scale_(scale) {}
 
   Mesh<dim> build() {
+    for (const std::string& passed_over : file_.notes) note("{}", passed_over);
     check_dimensions();
-    add_nodes();
+    find_nodes();
     name_blocks();
     add_elements();
-    check_every_node_is_used();
-    check_orientation();
-    check_sides();
+    add_used_nodes();
+    const int n_turned = turn_reversed_elements();
+    check_sides(n_turned > 0);
     find_boundary(mesh_);
     add_sets();
     give_to_rank_0();
@@ -69,6 +71,11 @@ class MeshBuilder {
   template <class... Arguments>
   [[noreturn]] void fail(fmt::format_string<Arguments...> what, Arguments&&... arguments) const {
     throw base::UserError(file_.name + ": " + fmt::format(what, std::forward<Arguments>(arguments)...));
+  }
+
+  template <class... Arguments>
+  void note(fmt::format_string<Arguments...> what, Arguments&&... arguments) {
+    mesh_.notes.push_back(file_.name + ": " + fmt::format(what, std::forward<Arguments>(arguments)...));
   }
 
   int dimension_of(std::size_t element) const { return dimension(file_.shapes[element]); }
@@ -87,32 +94,48 @@ class MeshBuilder {
 
   // ---- nodes ----
 
-  void add_nodes() {
+  void find_nodes() {
     if (std::max(file_.node_tags.size(), file_.element_nodes.size()) > std::numeric_limits<int>::max()) {
       fail("more than {} nodes or corners of elements", std::numeric_limits<int>::max());
     }
-    check_flat();
-    node_of_tag_.reserve(file_.node_tags.size());
+    place_of_tag_.reserve(file_.node_tags.size());
     for (std::size_t n = 0; n < file_.node_tags.size(); ++n) {
-      if (!node_of_tag_.emplace(file_.node_tags[n], static_cast<int>(n)).second) {
+      if (!place_of_tag_.emplace(file_.node_tags[n], static_cast<int>(n)).second) {
         fail("two nodes have the number {}", file_.node_tags[n]);
       }
-      const Point<dim> scaled = scale_ * Eigen::Map<const Point<dim>>(file_.coordinates[n].data());
-      if (!(scaled.cwiseAbs().maxCoeff() < largest_coordinate)) {
-        fail("node {} has a coordinate of {} after scaling by {}; allowed are absolute values < {}", file_.node_tags[n],
-             scaled.cwiseAbs().maxCoeff(), scale_, largest_coordinate);
-      }
-      mesh_.coordinates.push_back(scaled);
     }
+  }
+
+  /// Nodes that elements use become the mesh's, in the file's order; the elements' corners, until here places in the
+  /// file, become their numbers.
+  void add_used_nodes() {
+    node_at_place_.assign(file_.node_tags.size(), unused);
+    for (const int place : mesh_.corners) node_at_place_[place] = unnumbered;
+    check_flat();
+    for (std::size_t n = 0; n < node_at_place_.size(); ++n) {
+      if (node_at_place_[n] != unused) add_node(n);
+    }
+    for (int& corner : mesh_.corners) corner = node_at_place_[corner];
+    note_unused_nodes();
+  }
+
+  void add_node(std::size_t place) {
+    const Point<dim> scaled = scale_ * Eigen::Map<const Point<dim>>(file_.coordinates[place].data());
+    if (!(scaled.cwiseAbs().maxCoeff() < largest_coordinate)) {
+      fail("node {} has a coordinate of {} after scaling by {}; allowed are absolute values < {}",
+           file_.node_tags[place], scaled.cwiseAbs().maxCoeff(), scale_, largest_coordinate);
+    }
+    node_at_place_[place] = mesh_.n_nodes();
+    mesh_.coordinates.push_back(scaled);
   }
 
   /// The coordinates that a mesh of this dimension leaves out are all equal.
   void check_flat() const {
-    if (file_.coordinates.empty()) return;
-    Eigen::Array3d lowest = Eigen::Map<const Eigen::Array3d>(file_.coordinates.front().data()), highest = lowest;
-    for (const auto& point : file_.coordinates) {
-      lowest = lowest.min(Eigen::Map<const Eigen::Array3d>(point.data()));
-      highest = highest.max(Eigen::Map<const Eigen::Array3d>(point.data()));
+    Eigen::Array3d lowest = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity()), highest = -lowest;
+    for (std::size_t n = 0; n < node_at_place_.size(); ++n) {
+      if (node_at_place_[n] == unused) continue;
+      lowest = lowest.min(Eigen::Map<const Eigen::Array3d>(file_.coordinates[n].data()));
+      highest = highest.max(Eigen::Map<const Eigen::Array3d>(file_.coordinates[n].data()));
     }
     const Eigen::Array3d extent = highest - lowest;
     if ((extent.tail(3 - dim) > flatness * extent.maxCoeff()).any()) {
@@ -121,25 +144,60 @@ class MeshBuilder {
     }
   }
 
-  int node_of(std::size_t element, std::int64_t tag) const {
-    const auto found = node_of_tag_.find(tag);
-    if (found == node_of_tag_.end()) {
+  void note_unused_nodes() {
+    std::vector<std::int64_t> mid_nodes = file_.mid_nodes, others;
+    sort_unique(mid_nodes, std::less<>());
+    std::size_t n_mid_nodes = 0;
+    for (std::size_t n = 0; n < node_at_place_.size(); ++n) {
+      if (node_at_place_[n] != unused) continue;
+      if (std::binary_search(mid_nodes.begin(), mid_nodes.end(), file_.node_tags[n])) {
+        ++n_mid_nodes;
+      } else {
+        others.push_back(file_.node_tags[n]);
+      }
+    }
+    if (const std::size_t n = file_.n_second_order[dim]; n > 0) {
+      note(
+          "{} of {} elements are of second order: they are taken by their corners, with straight edges, and {} node{} "
+          "between the corners are dropped",
+          n, mesh_.n_elements(), n_mid_nodes, n_mid_nodes == 1 ? "" : "s");
+    }
+    if (others.empty()) return;
+    const std::size_t n_others = others.size();
+    others.resize(std::min(n_others, most_listed));
+    note("{} node(s) that belong to no {}D element are dropped: {}{}", n_others, dim, fmt::join(others, ", "),
+         n_others > most_listed ? ", ..." : "");
+  }
+
+  int place_of(std::size_t element, std::int64_t tag) const {
+    const auto found = place_of_tag_.find(tag);
+    if (found == place_of_tag_.end()) {
       fail("element {} has node {}, which the file does not list", file_.element_tags[element], tag);
     }
     return found->second;
   }
 
-  std::vector<int> nodes_of(std::size_t element) const {
-    std::vector<int> nodes;
+  /// Of an element's corners, where their nodes stand in the file.
+  std::vector<int> places_of(std::size_t element) const {
+    std::vector<int> places;
     for (std::size_t i = file_.first_node[element]; i < file_.first_node[element + 1]; ++i) {
-      nodes.push_back(node_of(element, file_.element_nodes[i]));
+      places.push_back(place_of(element, file_.element_nodes[i]));
+    }
+    return places;
+  }
+
+  /// Of an element's corners: the mesh's nodes, without those that are not used.
+  std::vector<int> used_nodes_of(std::size_t element) const {
+    std::vector<int> nodes;
+    for (const int place : places_of(element)) {
+      if (node_at_place_[place] != unused) nodes.push_back(node_at_place_[place]);
     }
     return nodes;
   }
 
   // ---- elements and blocks ----
 
-  void check_dimensions() const {
+  void check_dimensions() {
     int highest = -1;
     for (std::size_t e = 0; e < file_.n_elements(); ++e) {
       highest = std::max(highest, dimension_of(e));
@@ -150,7 +208,11 @@ class MeshBuilder {
     }
     if (highest < 0) fail("the mesh has no elements");
     if (highest < dim) {
-      fail("the mesh has no elements of dimension {}, its highest is {}: {}", dim, highest, file_.advice.no_elements);
+      fail("the mesh has no elements of dimension {}, its highest is {}: {}", dim, highest, file_.advice);
+    }
+    if (dim == 3 && file_.n_plane_bodies > 0) {
+      note("{} plane elements (shells) have no body in three dimensions: they are groups of sides only",
+           file_.n_plane_bodies);
     }
   }
 
@@ -181,7 +243,7 @@ class MeshBuilder {
   void add_elements() {
     for (std::size_t e = 0; e < file_.n_elements(); ++e) {
       if (dimension_of(e) != dim) continue;
-      const std::vector<int> nodes = nodes_of(e);
+      const std::vector<int> nodes = places_of(e);
       mesh_.types.push_back(element_type(file_.shapes[e]));
       mesh_.blocks.push_back(block_of(e));
       mesh_.corners.insert(mesh_.corners.end(), nodes.begin(), nodes.end());
@@ -208,43 +270,40 @@ class MeshBuilder {
 
   // ---- checks of the whole mesh ----
 
-  void check_every_node_is_used() const {
-    std::vector<char> used(mesh_.coordinates.size(), 0);
-    for (const int node : mesh_.corners) used[node] = 1;
-    std::vector<std::int64_t> unused;
-    for (std::size_t n = 0; n < used.size(); ++n) {
-      if (!used[n]) unused.push_back(file_.node_tags[n]);
-    }
-    if (unused.empty()) return;
-    const std::size_t n_unused = unused.size();
-    unused.resize(std::min(n_unused, most_listed));
-    fail("{} node(s) belong to no {}D element: {}{}. {}", n_unused, dim, fmt::join(unused, ", "),
-         n_unused > most_listed ? ", ..." : "", file_.advice.unused_nodes);
-  }
-
-  void check_orientation() const {
-    int n_wrong = 0, first_wrong = -1;
-    double volume = 0.;
+  /// Returns how many.
+  int turn_reversed_elements() {
+    int n_turned = 0, first_turned = -1, n_wrong = 0, first_wrong = -1;
     for (int e = 0; e < mesh_.n_elements(); ++e) {
-      const double smallest = smallest_corner_volume(mesh_, e);
-      if (smallest > smallest_allowed_volume) continue;
-      if (n_wrong++ == 0) {
+      if (smallest_corner_volume(mesh_, e) > smallest_allowed_volume) continue;
+      turn(e);
+      if (smallest_corner_volume(mesh_, e) > smallest_allowed_volume) {
+        if (n_turned++ == 0) first_turned = e;
+      } else if (n_wrong++ == 0) {
         first_wrong = e;
-        volume = smallest;
       }
     }
-    if (n_wrong == 0) return;
-    if (n_wrong == mesh_.n_elements()) {
-      fail("all {} elements are inverted (the first is element {}). {}", n_wrong, file_tags_[first_wrong],
-           file_.advice.reversed);
+    if (n_wrong > 0) {
+      fail("element {} is degenerate or not convex ({} of {} elements are): at each corner, the edges must span {}",
+           file_tags_[first_wrong], n_wrong, mesh_.n_elements(), dim == 2 ? "an area" : "a volume");
     }
-    fail("element {} is {} ({} of {} elements are inverted or degenerate). {}", file_tags_[first_wrong],
-         volume < -smallest_allowed_volume ? "inverted" : "degenerate", n_wrong, mesh_.n_elements(),
-         file_.advice.reversed);
+    if (n_turned > 0) {
+      note("{} of {} elements have their nodes in reversed order and are turned (the first is element {})", n_turned,
+           mesh_.n_elements(), file_tags_[first_turned]);
+    }
+    return n_turned;
+  }
+
+  /// Mirrors the order of an element's corners.
+  void turn(int element) {
+    int* corners = mesh_.corners.data() + mesh_.first_corner[element];
+    const int n = mesh_.n_corners(element);
+    const int n_base = dim == 2 ? n : n == 4 || n == 6 ? 3 : 4;  // corners of its first face
+    std::reverse(corners + 1, corners + n_base);
+    if (n == 2 * n_base) std::reverse(corners + n_base + 1, corners + n);
   }
 
   /// A side has two elements, which see it from opposite sides; anything else is an overlap.
-  void check_sides() {
+  void check_sides(bool are_some_turned) {
     sides_ = sorted_sides(mesh_);
     for (std::size_t i = 0; i + 1 < sides_.size(); ++i) {
       if (sides_[i].key != sides_[i + 1].key) continue;
@@ -254,7 +313,19 @@ class MeshBuilder {
         fail("elements {}, {} and {} share one side: they overlap", file_tags_[first], file_tags_[second],
              file_tags_[sides_[i + 2].side.element]);
       }
+      if (are_some_turned && run_alike(sides_[i].side, sides_[i + 1].side)) {
+        fail("elements {} and {} lie on the same side of the side they share: they overlap", file_tags_[first],
+             file_tags_[second]);
+      }
     }
+  }
+
+  /// Whether two sides with the same nodes run round them in the same sense.
+  bool run_alike(const Side& first, const Side& second) const {
+    const std::vector<int> a = side_nodes(mesh_, first), b = side_nodes(mesh_, second);
+    if (dim == 2) return a == b;
+    const auto start = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
+    return b[(start + 1) % b.size()] == a[1];
   }
 
   bool same_nodes(int a, int b) const {
@@ -281,31 +352,51 @@ class MeshBuilder {
       for (const int group : groups_of(e)) add_to_sets(e, {dimension_of(e), group});
     }
     for (auto& [name, nodes] : mesh_.node_sets) sort_unique(nodes, std::less<>());
+    leave_out_what_does_not_fit();
     if (file_.sides_follow_from_node_sets) add_sides_of_node_sets();
     for (auto& [name, sides_of_set] : mesh_.side_sets) sort_unique(sides_of_set, std::less<>());
   }
 
   void add_to_sets(std::size_t element, const GroupKey& group) {
-    const std::vector<int> nodes = nodes_of(element);
+    const std::vector<int> nodes = used_nodes_of(element);
     const std::string name = unique_name(group, set_names_);
     std::vector<int>& node_set = mesh_.node_sets[name];
     node_set.insert(node_set.end(), nodes.begin(), nodes.end());
-    if (group.first == dim - 1) mesh_.side_sets[name].push_back(side_with(nodes, element, name));
+    if (group.first != dim - 1) return;
+    if (const Side side = side_with(nodes, element); side.element >= 0) {
+      mesh_.side_sets[name].push_back(side);
+    } else {
+      element_without_side_.emplace(name, file_.element_tags[element]);
+    }
   }
 
-  Side side_with(const std::vector<int>& nodes, std::size_t element, const std::string& set) const {
+  /// A side with these nodes, of element -1 if there is none.
+  Side side_with(const std::vector<int>& nodes, std::size_t element) const {
+    if (static_cast<int>(nodes.size()) < n_nodes(file_.shapes[element])) return {-1, 0};
     const SideKey key = mesh::side_key(nodes);
     const auto found = std::lower_bound(sides_.begin(), sides_.end(), key,
                                         [](const KeyedSide& side, const SideKey& k) { return side.key < k; });
-    if (found == sides_.end() || found->key != key) {
-      fail("element {} of the group \"{}\" is no side of any {}D element", file_.element_tags[element], set, dim);
+    return found == sides_.end() || found->key != key ? Side{-1, 0} : found->side;
+  }
+
+  /// Only what a case uses must fit the mesh: it then finds that the group is not there.
+  void leave_out_what_does_not_fit() {
+    for (const auto& [name, element] : element_without_side_) {
+      mesh_.side_sets.erase(name);
+      if (mesh_.node_sets.at(name).empty()) continue;
+      note("the group \"{}\" has nodes but no sides: element {} of it is no side of any {}D element", name, element,
+           dim);
     }
-    return found->side;
+    for (auto set = mesh_.node_sets.begin(); set != mesh_.node_sets.end();) {
+      if (set->second.empty()) note("the group \"{}\" is left out: no {}D element has a node of it", set->first, dim);
+      set = set->second.empty() ? mesh_.node_sets.erase(set) : std::next(set);
+    }
   }
 
   /// Requires node sets in ascending order.
   void add_sides_of_node_sets() {
     for (const auto& [name, nodes] : mesh_.node_sets) {
+      if (set_names_.at(name).first != 0) continue;  // it has sides of its own
       const auto is_in_set = [&members = nodes](int node) {
         return std::binary_search(members.begin(), members.end(), node);
       };
@@ -341,8 +432,10 @@ class MeshBuilder {
   const MeshFile& file_;
   double scale_;
   Mesh<dim> mesh_;
-  std::vector<std::int64_t> file_tags_;  // of the mesh's elements
-  std::unordered_map<std::int64_t, int> node_of_tag_;
+  std::vector<std::int64_t> file_tags_;                       // of the mesh's elements
+  std::unordered_map<std::int64_t, int> place_of_tag_;        // where the node stands in the file
+  std::vector<int> node_at_place_;                            // of the mesh, or unused
+  std::map<std::string, std::int64_t> element_without_side_;  // by group, the first
   std::map<int, int> block_of_group_;
   std::map<std::string, GroupKey> block_names_, set_names_;
   std::vector<KeyedSide> sides_;

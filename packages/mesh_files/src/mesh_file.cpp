@@ -34,10 +34,14 @@ void MeshFile::begin_element(std::int64_t tag, Shape shape, int group_list) {
 }
 
 void MeshFile::add_element(std::int64_t tag, Shape shape, int group_list, const std::vector<std::int64_t>& nodes) {
-  PERIMORPH_ASSERT(static_cast<int>(nodes.size()) == n_nodes(shape), "{} nodes of {}", nodes.size(), n_nodes(shape));
+  PERIMORPH_ASSERT(static_cast<int>(nodes.size()) >= n_nodes(shape), "{} nodes of {}", nodes.size(), n_nodes(shape));
   begin_element(tag, shape, group_list);
-  element_nodes.insert(element_nodes.end(), nodes.begin(), nodes.end());
+  const auto end_of_corners = nodes.begin() + n_nodes(shape);
+  element_nodes.insert(element_nodes.end(), nodes.begin(), end_of_corners);
   end_element();
+  if (end_of_corners == nodes.end()) return;
+  mid_nodes.insert(mid_nodes.end(), end_of_corners, nodes.end());
+  ++n_second_order[static_cast<std::size_t>(dimension(shape))];
 }
 
 int MeshFile::add_group_list(std::vector<int> groups) {

@@ -1,12 +1,12 @@
 // Runs gmsh as a process of its own: if it crashes, it does not take the solver along.
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
@@ -15,8 +15,10 @@
 
 #include "child_process.hpp"
 #include "file_cursor.hpp"
+#include "geometry_script.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh_files/gmsh.hpp"
+#include "text_fields.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -47,30 +49,46 @@ Words environment_without_mpi() {
   return kept;
 }
 
+constexpr int not_started = 127;  // exit status, as of a shell
+
 struct Outcome {
   int start_error;  // errno if the program could not be started, otherwise 0
   int status;       // as of waitpid()
   std::string output;
 };
 
-/// Runs a program found on the PATH to its end, without input; collects what it writes on both streams.
-Outcome run(Words command) {
+/// Where the PATH has a program, or "".
+std::string find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::string file = (folder.empty() ? "." : folder) + "/" + name;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0) return file;
+  }
+  return "";
+}
+
+/// Runs a program to its end, without input; collects what it writes on both streams.
+/// @param command its file and arguments
+Outcome run(Words command, Shell shell) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return {errno, 0, ""};
-  posix_spawn_file_actions_t streams;
-  posix_spawn_file_actions_init(&streams);
-  posix_spawn_file_actions_addopen(&streams, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&streams, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&streams, ends[1], STDERR_FILENO);
-
   Words environment = environment_without_mpi();
-  pid_t process = 0;
-  Outcome outcome = {};
-  outcome.start_error = posix_spawnp(&process, command[0].c_str(), &streams, nullptr, pointers(command).data(),
-                                     pointers(environment).data());
-  posix_spawn_file_actions_destroy(&streams);
+  const std::vector<char*> arguments = pointers(command), variables = pointers(environment);
+  const pid_t process = fork();
+  if (process == 0) {
+    dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+    dup2(ends[1], STDOUT_FILENO);
+    dup2(ends[1], STDERR_FILENO);
+    if (shell == Shell::refused) forbid_other_programs(arguments[0]);
+    execve(arguments[0], arguments.data(), variables.data());
+    _exit(not_started);
+  }
+  const int start_error = process < 0 ? errno : 0;
   close(ends[1]);
-  if (outcome.start_error == 0) {
+  Outcome outcome = {start_error, 0, ""};
+  if (process > 0) {
     outcome.output = read_to_end(ends[0]);
     outcome.status = wait_for(process);
   }
@@ -102,6 +120,15 @@ std::string how_it_ended(const Outcome& outcome) {
   return "gmsh wrote no mesh";
 }
 
+void refuse_commands(const std::string& geo_file) {
+  const std::string command = command_beyond_meshing(geo_file);
+  if (command.empty()) return;
+  throw base::UserError(fmt::format(
+      "{}{}; allowed are geometries that neither run programs nor write files, unless --allow-shell is given "
+      "(do so only if you trust where it is from)",
+      command.rfind(geo_file, 0) == 0 ? "" : geo_file + ": ", command));
+}
+
 /// So that neither an older mesh nor what a failed gmsh left behind is taken for the result.
 void remove_quietly(const std::string& file) {
   std::error_code ignored;
@@ -110,15 +137,19 @@ void remove_quietly(const std::string& file) {
 
 }  // namespace
 
-void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension) {
+bool is_geometry(const std::string& file) { return lower(std::filesystem::path(file).extension()) == ".geo"; }
+
+void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension, Shell shell) {
   PERIMORPH_ASSERT(dimension == 2 || dimension == 3, "a mesh of dimension {}", dimension);
   require_regular_file(geo_file, "a geometry of gmsh");
+  if (shell == Shell::refused) refuse_commands(geo_file);
   remove_quietly(msh_file);
-  const Outcome outcome =
-      run({"gmsh", fmt::format("-{}", dimension), "-format", "msh41", "-bin", "-v", "2", geo_file, "-o", msh_file});
-  if (outcome.start_error == ENOENT) {
+  const std::string gmsh = find_program("gmsh");
+  if (gmsh.empty()) {
     throw base::UserError(geo_file + ": gmsh is needed to mesh it, but is not installed (apt-get install gmsh)");
   }
+  const Outcome outcome = run(
+      {gmsh, fmt::format("-{}", dimension), "-format", "msh41", "-bin", "-v", "2", geo_file, "-o", msh_file}, shell);
   if (outcome.start_error != 0) {
     throw base::UserError(
         fmt::format("{}: gmsh cannot be started: {}", geo_file, std::generic_category().message(outcome.start_error)));

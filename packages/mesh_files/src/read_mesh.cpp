@@ -2,13 +2,15 @@
 
 #include <filesystem>
 
+#include "abaqus_file.hpp"
 #include "ansys_file.hpp"
 #include "exodus_file.hpp"
+#include "file_cursor.hpp"
+#include "geometry_script.hpp"
 #include "gmsh_file.hpp"
 #include "mesh_builder.hpp"
+#include "mesh_format.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/base/text.hpp"
-#include "perimorph/mesh_files/gmsh.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -16,45 +18,65 @@ using mesh::Mesh;
 
 namespace {
 
-using Reader = MeshFile (*)(const std::string&);
+MeshFile read_file(const std::string& file) {
+  switch (format_of(file)) {
+    case MeshFormat::gmsh:
+      return read_gmsh_file(file);
+    case MeshFormat::exodus:
+      return read_exodus_file(file);
+    case MeshFormat::ansys:
+      return read_ansys_file(file);
+    case MeshFormat::abaqus:
+      return read_abaqus_file(file);
+    case MeshFormat::unknown:
+      break;
+  }
+  require_regular_file(file, "a mesh");
+  throw base::UserError(file +
+                        ": neither its content nor its ending is that of a mesh; allowed are geometries of gmsh (.geo) "
+                        "and meshes of gmsh (.msh), Exodus (.e, .exo, .g), ANSYS (.cdb) and Abaqus (.inp)");
+}
 
-const std::map<std::string, Reader> readers = {
-    {".msh", read_gmsh_file}, {".e", read_exodus_file}, {".exo", read_exodus_file}, {".cdb", read_ansys_file}};
+/// What gmsh made of a geometry, in the geometry's name.
+MeshFile read_meshed_geometry(const std::string& meshed, const std::string& geometry) {
+  MeshFile file;
+  try {
+    file = read_gmsh_file(meshed);
+  } catch (const base::UserError& error) {
+    const std::string message = error.what();
+    throw base::UserError(geometry + ": what gmsh makes of it cannot be read" +
+                          (message.rfind(meshed, 0) == 0 ? message.substr(meshed.size()) : ": " + message));
+  }
+  file.name = geometry;
+  file.advice =
+      "put what is to be computed into a Physical Surface (2D) or Physical Volume (3D), and look whether it has "
+      "one in the geometry";
+  return file;
+}
 
 }  // namespace
 
-const std::vector<std::string>& mesh_file_endings() {
-  static const std::vector<std::string> endings = [] {
-    std::vector<std::string> all;
-    for (const auto& reader : readers) all.push_back(reader.first);
-    return all;
-  }();
-  return endings;
-}
-
 template <int dim>
 Mesh<dim> read_mesh(const std::string& file, double scale) {
-  const std::string ending = std::filesystem::path(file).extension();
-  const auto reader = readers.find(ending);
-  if (reader == readers.end()) {
-    throw base::UserError(fmt::format("{}: found the ending \"{}\"; a mesh file ends in one of {}", file, ending,
-                                      base::quoted_list(mesh_file_endings())));
-  }
-  return build_mesh<dim>(reader->second(file), scale);
+  return build_mesh<dim>(read_file(file), scale);
 }
 
 template <int dim>
-Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale) {
+Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale, Shell shell) {
   const std::filesystem::path path(file);
-  if (path.extension() != ".geo") return read_mesh<dim>(file, scale);
+  if (!is_geometry(file)) return read_mesh<dim>(file, scale);
   const std::string meshed = (std::filesystem::path(folder) / path.stem()).string() + ".msh";
-  mesh_geometry(file, meshed, dim);
-  return read_mesh<dim>(meshed, scale);
+  mesh_geometry(file, meshed, dim, shell);
+  MeshFile mesh = read_meshed_geometry(meshed, file);
+  for (const std::string& command : undone_commands(file)) {
+    mesh.notes.push_back(fmt::format("{} has no effect: the geometry is meshed after all its commands, anew", command));
+  }
+  return build_mesh<dim>(mesh, scale);
 }
 
 template Mesh<2> read_mesh(const std::string&, double);
 template Mesh<3> read_mesh(const std::string&, double);
-template Mesh<2> mesh_and_read(const std::string&, const std::string&, double);
-template Mesh<3> mesh_and_read(const std::string&, const std::string&, double);
+template Mesh<2> mesh_and_read(const std::string&, const std::string&, double, Shell);
+template Mesh<3> mesh_and_read(const std::string&, const std::string&, double, Shell);
 
 }  // namespace perimorph::mesh_files

@@ -118,6 +118,17 @@ std::string error_of_reading(const std::string& file) {
   return "(no error)";
 }
 
+/// The mesh's notes without the file's name before each, a line each.
+template <int dim>
+std::string notes_of(const mesh::Mesh<dim>& mesh, const std::string& file) {
+  std::string notes;
+  for (const std::string& note : mesh.notes) {
+    EXPECT_EQ(note.rfind(file + ": ", 0), 0u) << note;
+    notes += note.substr(std::min(note.size(), file.size() + 2)) + "\n";
+  }
+  return notes;
+}
+
 /// Meshes a .geo text with gmsh's own options, such as "-format msh22 -bin".
 inline std::string meshed(const std::string& geo, int dimension, const std::string& options, const std::string& name) {
   const std::string geo_file = written(name + ".geo", geo), msh_file = test_file(name + ".msh");

@@ -29,6 +29,13 @@ class ExodusWriter {
     id_ = ex_create(file.c_str(), mode, &word_size, &word_size);
     check(id_);
   }
+  /// Of a file that is there.
+  explicit ExodusWriter(const std::string& file) {
+    int word_size = sizeof(double), word_size_in_file = 0;
+    float version = 0.F;
+    id_ = ex_open(file.c_str(), EX_WRITE | EX_ALL_INT64_API, &word_size, &word_size_in_file, &version);
+    check(id_);
+  }
   ~ExodusWriter() { ex_close(id_); }
   ExodusWriter(const ExodusWriter&) = delete;
   ExodusWriter& operator=(const ExodusWriter&) = delete;

@@ -3,13 +3,15 @@
 #include <string>
 
 #include "perimorph/input/section.hpp"
+#include "perimorph/mesh_files/gmsh.hpp"
 
 namespace perimorph::cases {
 
 /// Where the body comes from.
 struct MeshSource {
-  std::string file;   ///< in a case as read: resolved against the case file's folder
-  double scale = 1.;  ///< factor on its coordinates [-]
+  std::string file;                                      ///< in a case as read: resolved against the case file's folder
+  double scale = 1.;                                     ///< factor on its coordinates [-]
+  mesh_files::Shell shell = mesh_files::Shell::refused;  ///< of a geometry; no parameter: a case must not allow itself
 };
 
 void declare(const input::Section& section, MeshSource& mesh);

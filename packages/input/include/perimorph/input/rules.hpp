@@ -55,7 +55,7 @@ RulePtr changeable(const RulePtr& rule);
 
 RulePtr any_text();
 RulePtr text(const std::string& what);  ///< not empty
-RulePtr file_name(const std::vector<std::string>& endings);
+RulePtr file_name();
 RulePtr one_of(const std::vector<std::string>& choices);
 RulePtr any_number();
 RulePtr above(double low);

@@ -12,8 +12,9 @@ enum class ElementType : std::uint8_t { tri3, quad4, tet4, pyramid5, wedge6, hex
 inline constexpr int max_corners = 8;
 
 int n_corners(ElementType type);
-int dimension(ElementType type);            ///< 2 or 3
-std::string exodus_name(ElementType type);  ///< "TRI3", "QUAD4", "TETRA4", "PYRAMID5", "WEDGE6", "HEX8"
+int dimension(ElementType type);  ///< 2 or 3
+/// "TRI3", "QUAD4", "TETRA", "PYRAMID", "WEDGE", "HEX8": of the names in use, those that most readers know.
+std::string exodus_name(ElementType type);
 
 /// Corners of each side (edge in 2D, face in 3D), outward orientation: sides(quad4)[1] = {1, 2}.
 const std::vector<std::vector<int>>& sides(ElementType type);

@@ -51,6 +51,8 @@ struct Mesh {
   /// Sides of local elements that belong to one element of the whole body only: its boundary, pre-cracks included.
   std::vector<Side> boundary;
 
+  std::vector<std::string> notes;  ///< of a whole mesh: what was changed when it was read, a line each, for the user
+
   int rank = 0;
   int n_owned_nodes = 0;
   int n_owned_elements = 0;
