@@ -86,7 +86,8 @@ class OneRun(InFolder):
         run = self.start(*ENDLESS)
         self.wait_for(lambda: self.has_rows(3))
         self.output.rename(self.folder / "elsewhere")
-        self.assertEqual(run.wait(timeout=60), 3)
+        message = run.stderr.read()
+        self.assertEqual(run.wait(timeout=60), 3, message)
 
     def test_a_series_that_is_removed_meanwhile_is_an_error(self):
         run = self.start(*settings("Loading/Increments=1000000", "Material/Critical Stretch=1e3"))

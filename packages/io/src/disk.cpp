@@ -43,6 +43,14 @@ void bring_to_disk(const std::string& path) {
   throw base::ComputationError(fmt::format("{}: it cannot be brought to the disk: {}", path, std::strerror(error)));
 }
 
+base::GlobalId size_of(const std::string& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (!error) return static_cast<GlobalId>(size);
+  throw base::ComputationError(
+      fmt::format("{}: it is missing: something has removed it while the run was writing it", path));
+}
+
 std::string trouble_with(const std::string& folder, const FileExtent& extent) {
   const std::string path = (std::filesystem::path(folder) / extent.name).string();
   std::error_code error;

@@ -340,11 +340,7 @@ void ExodusSeries<dim>::remove_the_rest() const {
 
 template <int dim>
 base::GlobalId ExodusSeries<dim>::current_size() const {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(own_file(n_files_), error);
-  if (!error) return static_cast<base::GlobalId>(size);
-  throw base::ComputationError(
-      fmt::format("{}: it is missing: something has removed it while the run was writing it", own_file(n_files_)));
+  return size_of(own_file(n_files_));
 }
 
 template <int dim>

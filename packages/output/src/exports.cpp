@@ -263,7 +263,7 @@ void Exports<dim>::write_bonds(int increment, const Body<dim>& body) {
     if (comm_->getRank() != 0) return;
     const std::filesystem::path file = bonds_file(folder_, increment);
     io::write_bonds(file.string(), model_of<dim>(points, bonds));
-    bond_files_.push_back({file.filename(), static_cast<GlobalId>(std::filesystem::file_size(file))});
+    bond_files_.push_back({file.filename(), io::size_of(file.string())});
   });
 }
 

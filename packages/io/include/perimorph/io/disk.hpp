@@ -11,6 +11,9 @@ namespace perimorph::io {
 /// take them any more. Local. @throws ComputationError naming it, if that fails.
 void bring_to_disk(const std::string& path);
 
+/// The size of a file that the run has written, [bytes]. Local. @throws ComputationError naming it, if it is gone.
+base::GlobalId size_of(const std::string& path);
+
 /// How far a file of results had come at some time.
 struct FileExtent {
   static constexpr base::GlobalId no_checksum = -1;
