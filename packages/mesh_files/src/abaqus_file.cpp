@@ -74,7 +74,7 @@ class Reader {
   }
 
   std::string name_in(const AbaqusKeyword& keyword, const std::string& parameter) const {
-    const std::string name = keyword.value(parameter);
+    std::string name = keyword.value(parameter);
     if (name.empty() || name.size() > longest_name || base::has_control_characters(name)) {
       lines_.fail(fmt::format("*{} needs {}= with a readable name of at most {} characters, found \"{}\"", keyword.name,
                               parameter, longest_name, excerpt(name)));

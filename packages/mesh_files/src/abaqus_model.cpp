@@ -156,8 +156,6 @@ class Builder {
       const auto [list, is_new] = list_of_name.emplace(names[e], 0);
       if (is_new) list->second = add_group(dimension_of_elements, names[e]);
       result_.element_groups[e] = list->second;
-      if (!has_higher) continue;
-      for (const std::int64_t node : nodes_of(e)) sides_by_name_[names[e]].insert(node);
     }
   }
 
@@ -207,7 +205,6 @@ class Builder {
           const auto [list, is_new] = list_of_dimension.emplace(dimension(shape), 0);
           if (is_new) list->second = add_group(dimension(shape), name);
           result_.add_element(element.first, shape, list->second, nodes);
-          sides_by_name_[name].insert(nodes.begin(), nodes.end());
         }
       });
     }
@@ -254,15 +251,8 @@ class Builder {
     for_each_in(set.nodes_of, sorted_elements_, [&](const auto& element) {
       for (const std::int64_t node : nodes_of(element.second)) nodes.insert(node);
     });
-    const std::string name = name_in(part, set.name);
-    const auto sides = sides_by_name_.find(name);
-    if (nodes.empty() || (sides != sides_by_name_.end() && sides->second == nodes)) return;
-    if (sides != sides_by_name_.end() || !names_of_node_sets_.insert(name).second) {
-      result_.notes.push_back(
-          fmt::format("the node set \"{}\" is left out: something else of other nodes is called so", name));
-      return;
-    }
-    const int list = add_group(0, name);
+    if (nodes.empty()) return;
+    const int list = add_group(0, name_in(part, set.name));
     for (const std::int64_t node : nodes) result_.add_element(node, Shape::point, list, {node});
   }
 
@@ -270,9 +260,7 @@ class Builder {
   const AbaqusPart& rest_;
   MeshFile result_;
   Numbered sorted_nodes_, sorted_elements_;
-  std::vector<std::string> set_of_;                              // by element, of its *ELEMENT
-  std::map<std::string, std::set<std::int64_t>> sides_by_name_;  // nodes of surfaces and of lower elements
-  std::set<std::string> names_of_node_sets_;
+  std::vector<std::string> set_of_;                         // by element, of its *ELEMENT
   std::map<std::vector<std::int64_t>, int> n_elements_at_;  // by sorted nodes of a side; filled when first needed
 };
 

@@ -1,5 +1,5 @@
-// Archives of ANSYS (CDWRITE, blocked) and the input files of its Workbench: the commands ET, ETBLOCK, TYPE, NBLOCK,
-// EBLOCK and CMBLOCK of its Command Reference, and the shapes of solid elements in its Element Reference.
+// Archives of ANSYS (CDWRITE, blocked) and the input files of its Workbench: the commands ET, ETBLOCK, KEYOPT, TYPE,
+// NBLOCK, EBLOCK and CMBLOCK of its Command Reference.
 
 #include "ansys_file.hpp"
 
@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "ansys_elements.hpp"
 #include "file_cursor.hpp"
 #include "perimorph/base/errors.hpp"
 #include "text_fields.hpp"
@@ -24,23 +25,6 @@ const char* const advice = "write PLANE182 elements for a 2D case, SOLID185 for 
 constexpr std::size_t material_field = 0, type_field = 1, count_field = 8, number_field = 10, n_fields = 11;
 
 using Nodes = std::vector<std::int64_t>;
-
-/// A kind of elements: how many nodes it has, of which so many come first and are its corners.
-struct Kind {
-  std::size_t n_nodes, n_corners;
-  bool is_plane;
-};
-
-/// The elements that may be read, by ANSYS' number of the kind.
-const std::map<int, Kind> kinds_of_bodies = {{42, {4, 4, true}},   {182, {4, 4, true}},  {82, {8, 4, true}},
-                                             {183, {8, 4, true}},  {2, {6, 3, true}},    {45, {8, 8, false}},
-                                             {185, {8, 8, false}}, {95, {20, 8, false}}, {186, {20, 8, false}},
-                                             {285, {4, 4, false}}, {92, {10, 4, false}}, {187, {10, 4, false}}};
-
-/// Masses, springs, links, beams, pipes, surface effects, contact, pretension, joints: no bodies of their own.
-const std::set<int> kinds_without_body = {3,   4,   8,   10,  14,  21,  39,  40,  116, 151, 152, 153, 154,
-                                          156, 169, 170, 171, 172, 173, 174, 175, 176, 177, 178, 179, 180,
-                                          184, 188, 189, 200, 201, 214, 250, 251, 288, 289, 290};
 
 /// A collapsed element without its repeated nodes.
 struct Reduced {
@@ -91,9 +75,11 @@ class Reader {
     const std::vector<std::string> fields = fields_of(cursor_.line());
     const std::string command = lower(fields[0]);
     if (command == "et") {
-      read_element_kind(fields);
+      read_element_type(fields);
     } else if (command == "etblock") {
-      read_element_kinds();
+      read_element_types();
+    } else if (command == "keyop" || command == "keyopt" || command == "keyo") {
+      read_option(fields);
     } else if (command == "type") {
       current_type_ = fields.size() > 1 ? number_or_parameter(fields[1]).value_or(0) : 0;
     } else if (command == "*set") {
@@ -168,13 +154,21 @@ class Reader {
 
   // ---- nodes and elements ----
 
-  /// ET, number, kind: as 182 or PLANE182.
-  void read_element_kind(const std::vector<std::string>& fields) {
+  /// ET, number, kind (182 or PLANE182), first key option
+  void read_element_type(const std::vector<std::string>& fields) {
     if (fields.size() < 3) cursor_.fail("ET without a number and an element type");
     const std::string digits = fields[2].substr(std::min(fields[2].find_first_of("0123456789"), fields[2].size()));
-    if (const auto type = number_or_parameter(fields[1])) {
-      kinds_[*type] = static_cast<int>(whole_number(digits) % 100000);
+    if (const auto number = number_or_parameter(fields[1])) {
+      const int option = fields.size() > 3 ? static_cast<int>(number_or_parameter(fields[3]).value_or(0)) : 0;
+      types_[*number] = {static_cast<int>(whole_number(digits) % 100000), option};
     }
+  }
+
+  /// KEYOPT, type, which, value
+  void read_option(const std::vector<std::string>& fields) {
+    if (fields.size() < 4 || number_or_parameter(fields[2]) != 1) return;
+    const auto type = types_.find(number_or_parameter(fields[1]).value_or(0));
+    if (type != types_.end()) type->second.first_option = static_cast<int>(number_or_parameter(fields[3]).value_or(0));
   }
 
   /// *SET, name, value: Workbench names types of contact elements so.
@@ -191,13 +185,13 @@ class Reader {
   }
 
   /// Since ANSYS 2019: number, kind, key options, a line each.
-  void read_element_kinds() {
+  void read_element_types() {
     const ColumnFormat format = read_format();
     for (;;) {
       const std::vector<std::int64_t> line = integers(data_line(), format);
       if (line.empty() || line[0] == -1) return;
       if (line.size() < 2) cursor_.fail("ETBLOCK has a line without a number and an element type");
-      kinds_[line[0]] = static_cast<int>(line[1] % 100000);
+      types_[line[0]] = {static_cast<int>(line[1] % 100000), line.size() > 2 ? static_cast<int>(line[2]) : 0};
     }
   }
 
@@ -243,27 +237,27 @@ class Reader {
     return n;
   }
 
-  /// A block without SOLID is all of the type that the command TYPE names.
+  /// A block without SOLID is all of the type that the command TYPE names, or else its lines do.
   void pass_over_elements() {
-    const auto kind = kinds_.find(current_type_);
-    const int number = kind == kinds_.end() ? 0 : kind->second;
-    if (kinds_without_body.count(number) == 0) {
-      cursor_.fail(
-          fmt::format("EBLOCK without SOLID, of ANSYS' element type {}; allowed in such a block are surface, contact "
-                      "and other elements without a body, which are passed over",
-                      number));
-    }
     const ColumnFormat format = read_format();
     for (;;) {
       const std::vector<std::int64_t> line = integers(data_line(), format);
       if (!line.empty() && line[0] == -1) return;
-      ++passed_over_[number];
+      const bool is_named = types_.count(current_type_) > 0 || line.size() <= type_field;
+      const auto type = types_.find(is_named ? current_type_ : line[type_field]);
+      if (type == types_.end() || !is_without_body(type->second)) {
+        cursor_.fail(
+            fmt::format("EBLOCK without SOLID, of ANSYS' element type {}; allowed in such a block are surface, contact "
+                        "and other elements without a body, which are passed over",
+                        type == types_.end() ? 0 : type->second.kind));
+      }
+      ++passed_over_[type->second.kind];
     }
   }
 
   void read_element(const std::vector<std::int64_t>& line, const ColumnFormat& format) {
     const std::int64_t number = line[number_field];
-    const int kind = kind_of(number, line[type_field]);
+    const AnsysType type = type_of(number, line[type_field]);
     const auto n_nodes = static_cast<std::size_t>(line[count_field]);
     Nodes nodes(line.begin() + n_fields, line.end());
     while (nodes.size() < n_nodes) {
@@ -274,19 +268,19 @@ class Reader {
     if (nodes.size() != n_nodes) {
       cursor_.fail(fmt::format("element {} announces {} nodes, but has {}", number, n_nodes, nodes.size()));
     }
-    if (kinds_without_body.count(kind) > 0) {
-      ++passed_over_[kind];
+    if (is_without_body(type)) {
+      ++passed_over_[type.kind];
     } else {
-      add_body_element(line, kind, nodes);
+      add_body_element(line, *nodes_of_ansys_type(type), nodes);
     }
   }
 
-  void add_body_element(const std::vector<std::int64_t>& line, int kind_number, const Nodes& nodes) {
-    const Kind& kind = kinds_of_bodies.at(kind_number);
+  void add_body_element(const std::vector<std::int64_t>& line, const AnsysNodes& kind, const Nodes& nodes) {
     const std::int64_t number = line[number_field];
-    if (nodes.size() != kind.n_nodes && nodes.size() != kind.n_corners) {
+    if (nodes.size() > kind.n_nodes || nodes.size() < kind.n_corners) {  // the last of those between may be left out
       cursor_.fail(fmt::format("element {} has {} nodes; its type has {}", number, nodes.size(), kind.n_nodes));
     }
+    if (kind.is_plane) ++result_.n_plane_bodies;
     Nodes corners(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(kind.n_corners));
     Reduced reduced = kind.is_plane         ? reduced_plane(corners, number)
                       : kind.n_corners == 4 ? Reduced{Shape::tetrahedron, corners}
@@ -296,19 +290,18 @@ class Reader {
     materials_.push_back(line[material_field]);
   }
 
-  int kind_of(std::int64_t element, std::int64_t type) const {
-    const auto kind = kinds_.find(type);
-    if (kind == kinds_.end()) {
-      cursor_.fail(fmt::format("element {} has type {}, which no ET command defines before it", element, type));
+  AnsysType type_of(std::int64_t element, std::int64_t number) const {
+    const auto type = types_.find(number);
+    if (type == types_.end()) {
+      cursor_.fail(fmt::format("element {} has type {}, which no ET command defines before it", element, number));
     }
-    if (kinds_of_bodies.count(kind->second) == 0 && kinds_without_body.count(kind->second) == 0) {
-      cursor_.fail(
-          fmt::format("element {} is of ANSYS' type {}; allowed are PLANE182, PLANE183, PLANE42, PLANE82 and PLANE2 in "
-                      "2D, SOLID185, SOLID186, SOLID187, SOLID285, SOLID45, SOLID92 and SOLID95 in 3D (unselect others "
-                      "before CDWRITE)",
-                      element, kind->second));
+    if (!nodes_of_ansys_type(type->second) && !is_without_body(type->second)) {
+      cursor_.fail(fmt::format(
+          "element {} is of ANSYS' type {}; allowed are plane elements, solids and shells such as PLANE182, "
+          "SOLID185, SOLID187 and SHELL181 (unselect others before CDWRITE)",
+          element, type->second.kind));
     }
-    return kind->second;
+    return type->second;
   }
 
   void note_what_was_passed_over() {
@@ -362,10 +355,18 @@ class Reader {
       n += values.size();
     }
     if (kind == "node") {
-      node_components_.push_back(std::move(component));
+      define(std::move(component), node_components_);
     } else if (kind == "elem") {
-      element_components_.push_back(std::move(component));
+      define(std::move(component), element_components_);
     }
+  }
+
+  /// A component replaces an earlier one of its name, as in ANSYS.
+  static void define(Component component, std::vector<Component>& all) {
+    const auto earlier =
+        std::find_if(all.begin(), all.end(), [&](const Component& other) { return other.name == component.name; });
+    if (earlier != all.end()) all.erase(earlier);
+    all.push_back(std::move(component));
   }
 
   void extend(Component& component, std::int64_t value) const {
@@ -395,11 +396,7 @@ class Reader {
 
   void add_node_sets() {
     int number = 0;
-    std::set<std::string> names;
     for (const Component& component : node_components_) {
-      if (!names.insert(component.name).second) {
-        cursor_.fail(fmt::format("two components are called \"{}\"", excerpt(component.name)));
-      }
       const GroupKey key{0, ++number};
       result_.group_names[key] = component.name;
       const int list = result_.add_group_list({number});
@@ -448,8 +445,8 @@ class Reader {
   FileCursor cursor_;
   MeshFile result_;
   bool has_nodes_ = false, has_elements_ = false;
-  std::map<std::int64_t, int> kinds_;  ///< by the number that ET gives them
-  std::int64_t current_type_ = 0;      ///< as TYPE says
+  std::map<std::int64_t, AnsysType> types_;  ///< by the number that ET gives them
+  std::int64_t current_type_ = 0;            ///< as TYPE says
   std::map<std::string, std::int64_t> parameters_;
   std::map<int, std::size_t> passed_over_;  ///< number of elements by kind
   std::vector<std::int64_t> materials_;     ///< by element

@@ -336,7 +336,6 @@ class Reader {
       const auto [list, is_new] = list_of_dimension.emplace(dimension(shape), 0);
       if (is_new) list->second = add_group(dimension(shape), set.name);
       result_.add_element(static_cast<std::int64_t>(i) + 1, shape, list->second, sides[i]);
-      nodes_of_side_set_[set.name].insert(sides[i].begin(), sides[i].end());
     }
   }
 
@@ -428,11 +427,7 @@ class Reader {
       std::set<std::int64_t> nodes;
       for (const std::int64_t node : set.entries)
         nodes.insert(node_tag(node, fmt::format("node set \"{}\"", set.name)));
-      const auto same_name = nodes_of_side_set_.find(set.name);
-      if (nodes.empty() || (same_name != nodes_of_side_set_.end() && same_name->second == nodes)) continue;
-      if (same_name != nodes_of_side_set_.end()) {
-        fail("a node set and a side set are called \"{}\", but have different nodes; give each its own name", set.name);
-      }
+      if (nodes.empty()) continue;
       const int list = add_group(0, set.name);
       for (const std::int64_t node : nodes) result_.add_element(node, Shape::point, list, {node});
     }
@@ -448,7 +443,6 @@ class Reader {
   std::int64_t n_passed_over_ = 0;
   std::vector<int> block_of_;  ///< by index of an element, place in side_numbering_
   std::vector<SideNumbering> side_numbering_;
-  std::map<std::string, std::set<std::int64_t>> nodes_of_side_set_;
 };
 
 }  // namespace

@@ -101,7 +101,7 @@ class Search {
         return place(file, token, fmt::format("has a string of more than {} characters", longest_string));
       }
       if (token.kind != Token::Kind::word) continue;
-      if (const std::string found = at(file, tokens.all(), i); !found.empty()) return found;
+      if (std::string found = at(file, tokens.all(), i); !found.empty()) return found;
     }
     return "";
   }
@@ -164,7 +164,14 @@ class Search {
 
 }  // namespace
 
-std::string command_beyond_meshing(const std::string& geometry) { return Search().in(geometry); }
+std::string command_beyond_meshing(const std::string& geometry) {
+  Search search;
+  std::string found = search.in(geometry);
+  const std::string options = geometry + ".opt";  // gmsh reads it after the geometry, without being told to
+  std::error_code ignored;
+  const bool has_options = std::filesystem::is_regular_file(options, ignored);
+  return found.empty() && has_options ? search.in(options) : found;
+}
 
 std::vector<std::string> undone_commands(const std::string& geometry) {
   const Tokens tokens(geometry);

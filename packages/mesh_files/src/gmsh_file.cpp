@@ -351,10 +351,10 @@ class Reader {
 
   /// number, kind, entity, count of what follows: nodes, then partitions
   void read_element_3() {
-    const int number = cursor_.next_int(), type = cursor_.next_int(), entity = cursor_.next_int();
+    const int tag = cursor_.next_int(), number_of_kind = cursor_.next_int(), entity = cursor_.next_int();
     const int n_numbers = cursor_.next_int();
-    const Kind& kind = kind_of(number, type);
-    read_corners(number, kind, list_of_entity({dimension(kind.shape), entity}));
+    const Kind& kind = kind_of(tag, number_of_kind);
+    read_corners(tag, kind, list_of_entity({dimension(kind.shape), entity}));
     for (int n = n_numbers - kind.n_nodes; n > 0; --n) cursor_.next_int();
   }
 
@@ -377,13 +377,13 @@ class Reader {
     }
   }
 
-  void read_tags_and_corners(int number, int kind, int n_tags) {
+  void read_tags_and_corners(int number, int number_of_kind, int n_tags) {
     int group = 0;  // the first tag; 0 is none
     for (int t = 0; t < n_tags; ++t) {
       const int tag = cursor_.next_int();
       if (t == 0) group = group_number(tag);
     }
-    read_corners(number, kind_of(number, kind), list_of_group(group));
+    read_corners(number, kind_of(number, number_of_kind), list_of_group(group));
   }
 
   int list_of_group(int group) {
@@ -415,13 +415,13 @@ class Reader {
     for (auto& x : point) x = cursor_.next_real();
   }
 
-  const Kind& kind_of(std::int64_t element, int number) const {
-    const auto kind = kinds.find(number);
+  const Kind& kind_of(std::int64_t tag, int number_of_kind) const {
+    const auto kind = kinds.find(number_of_kind);
     if (kind != kinds.end()) return kind->second;
     cursor_.fail(
         fmt::format("element {} is of gmsh's kind {}; allowed are triangles and quadrangles in 2D, tetrahedra, "
                     "pyramids, prisms and hexahedra in 3D, of first or second order (Mesh.ElementOrder)",
-                    element, number));
+                    tag, number_of_kind));
   }
 
   void read_corners(std::int64_t tag, const Kind& kind, int groups) {

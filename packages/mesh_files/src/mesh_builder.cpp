@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 #include "perimorph/base/errors.hpp"
@@ -68,6 +69,14 @@ class MeshBuilder {
   }
 
  private:
+  /// Of one group: its nodes; and its sides if it is of lines (2D) or faces (3D).
+  struct Set {
+    int dimension = 0;
+    std::vector<int> nodes;
+    std::vector<Side> sides;
+    std::optional<std::int64_t> element_without_side;  // the first
+  };
+
   template <class... Arguments>
   [[noreturn]] void fail(fmt::format_string<Arguments...> what, Arguments&&... arguments) const {
     throw base::UserError(file_.name + ": " + fmt::format(what, std::forward<Arguments>(arguments)...));
@@ -225,14 +234,14 @@ class MeshBuilder {
     }
     for (auto& [group, block] : block_of_group_) {
       block = static_cast<int>(mesh_.block_names.size());
-      mesh_.block_names.push_back(unique_name({dim, group}, block_names_));
+      mesh_.block_names.push_back(unique_name({dim, group}));
     }
     if (block_of_group_.empty()) mesh_.block_names = {"body"};
   }
 
-  std::string unique_name(const GroupKey& group, std::map<std::string, GroupKey>& used) const {
+  std::string unique_name(const GroupKey& group) {
     std::string name = group_name(group);
-    const auto [entry, is_new] = used.emplace(name, group);
+    const auto [entry, is_new] = block_names_.emplace(name, group);
     if (!is_new && entry->second != group) {
       fail("two groups are named \"{}\": {} {} and {} {}; give each its own name", name,
            entity_name(entry->second.first), entry->second.second, entity_name(group.first), group.second);
@@ -349,24 +358,61 @@ class MeshBuilder {
   void add_sets() {
     for (std::size_t e = 0; e < file_.n_elements(); ++e) {
       if (dimension_of(e) >= dim) continue;
-      for (const int group : groups_of(e)) add_to_sets(e, {dimension_of(e), group});
+      for (const int group : groups_of(e)) add_to_set(e, {dimension_of(e), group});
     }
-    for (auto& [name, nodes] : mesh_.node_sets) sort_unique(nodes, std::less<>());
-    leave_out_what_does_not_fit();
-    if (file_.sides_follow_from_node_sets) add_sides_of_node_sets();
+    std::map<std::string, std::vector<const Set*>> sets_by_name;
+    for (auto& [group, set] : sets_) {
+      sort_unique(set.nodes, std::less<>());
+      sets_by_name[group_name(group)].push_back(&set);
+    }
+    for (const auto& [name, sets] : sets_by_name) name_sets(name, sets);
     for (auto& [name, sides_of_set] : mesh_.side_sets) sort_unique(sides_of_set, std::less<>());
   }
 
-  void add_to_sets(std::size_t element, const GroupKey& group) {
+  void add_to_set(std::size_t element, const GroupKey& group) {
     const std::vector<int> nodes = used_nodes_of(element);
-    const std::string name = unique_name(group, set_names_);
-    std::vector<int>& node_set = mesh_.node_sets[name];
-    node_set.insert(node_set.end(), nodes.begin(), nodes.end());
+    Set& set = sets_[group];
+    set.dimension = group.first;
+    set.nodes.insert(set.nodes.end(), nodes.begin(), nodes.end());
     if (group.first != dim - 1) return;
     if (const Side side = side_with(nodes, element); side.element >= 0) {
-      mesh_.side_sets[name].push_back(side);
-    } else {
-      element_without_side_.emplace(name, file_.element_tags[element]);
+      set.sides.push_back(side);
+    } else if (!set.element_without_side) {
+      set.element_without_side = file_.element_tags[element];
+    }
+  }
+
+  /// Only what a case uses must fit the mesh: of what does not, it finds that the group is not there.
+  void name_sets(const std::string& name, const std::vector<const Set*>& sets) {
+    const std::vector<int>& nodes = sets[0]->nodes;
+    if (!std::all_of(sets.begin(), sets.end(), [&](const Set* set) { return set->nodes == nodes; })) {
+      return note("the groups called \"{}\" are left out, since their nodes differ: give each its own name", name);
+    }
+    if (nodes.empty()) return note("the group \"{}\" is left out: no {}D element has a node of it", name, dim);
+    mesh_.node_sets[name] = nodes;
+    bool has_nodes_only = true;
+    for (const Set* set : sets) {
+      has_nodes_only = has_nodes_only && set->dimension == 0;
+      if (set->dimension == dim - 1) add_side_set(name, *set);
+    }
+    if (has_nodes_only && file_.sides_follow_from_node_sets) add_sides_between(nodes, name);
+  }
+
+  void add_side_set(const std::string& name, const Set& set) {
+    if (set.element_without_side) {
+      return note("the group \"{}\" has nodes but no sides: element {} of it is no side of any {}D element", name,
+                  *set.element_without_side, dim);
+    }
+    std::vector<Side>& sides_of_set = mesh_.side_sets[name];
+    sides_of_set.insert(sides_of_set.end(), set.sides.begin(), set.sides.end());
+  }
+
+  /// @param nodes in ascending order
+  void add_sides_between(const std::vector<int>& nodes, const std::string& name) {
+    const auto is_in_set = [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
+    for (const Side& side : mesh_.boundary) {
+      const std::vector<int> corners = side_nodes(mesh_, side);
+      if (std::all_of(corners.begin(), corners.end(), is_in_set)) mesh_.side_sets[name].push_back(side);
     }
   }
 
@@ -377,36 +423,6 @@ class MeshBuilder {
     const auto found = std::lower_bound(sides_.begin(), sides_.end(), key,
                                         [](const KeyedSide& side, const SideKey& k) { return side.key < k; });
     return found == sides_.end() || found->key != key ? Side{-1, 0} : found->side;
-  }
-
-  /// Only what a case uses must fit the mesh: it then finds that the group is not there.
-  void leave_out_what_does_not_fit() {
-    for (const auto& [name, element] : element_without_side_) {
-      mesh_.side_sets.erase(name);
-      if (mesh_.node_sets.at(name).empty()) continue;
-      note("the group \"{}\" has nodes but no sides: element {} of it is no side of any {}D element", name, element,
-           dim);
-    }
-    for (auto set = mesh_.node_sets.begin(); set != mesh_.node_sets.end();) {
-      if (set->second.empty()) note("the group \"{}\" is left out: no {}D element has a node of it", set->first, dim);
-      set = set->second.empty() ? mesh_.node_sets.erase(set) : std::next(set);
-    }
-  }
-
-  /// Requires node sets in ascending order.
-  void add_sides_of_node_sets() {
-    for (const auto& [name, nodes] : mesh_.node_sets) {
-      if (set_names_.at(name).first != 0) continue;  // it has sides of its own
-      const auto is_in_set = [&members = nodes](int node) {
-        return std::binary_search(members.begin(), members.end(), node);
-      };
-      for (const Side& side : mesh_.boundary) {
-        const std::vector<int> corners_of_side = side_nodes(mesh_, side);
-        if (std::all_of(corners_of_side.begin(), corners_of_side.end(), is_in_set)) {
-          mesh_.side_sets[name].push_back(side);
-        }
-      }
-    }
   }
 
   template <class T, class Less>
@@ -432,12 +448,12 @@ class MeshBuilder {
   const MeshFile& file_;
   double scale_;
   Mesh<dim> mesh_;
-  std::vector<std::int64_t> file_tags_;                       // of the mesh's elements
-  std::unordered_map<std::int64_t, int> place_of_tag_;        // where the node stands in the file
-  std::vector<int> node_at_place_;                            // of the mesh, or unused
-  std::map<std::string, std::int64_t> element_without_side_;  // by group, the first
+  std::vector<std::int64_t> file_tags_;                 // of the mesh's elements
+  std::unordered_map<std::int64_t, int> place_of_tag_;  // where the node stands in the file
+  std::vector<int> node_at_place_;                      // of the mesh, or unused
   std::map<int, int> block_of_group_;
-  std::map<std::string, GroupKey> block_names_, set_names_;
+  std::map<std::string, GroupKey> block_names_;
+  std::map<GroupKey, Set> sets_;
   std::vector<KeyedSide> sides_;
 };
 

@@ -62,7 +62,7 @@ std::string find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string file = (folder.empty() ? "." : folder) + "/" + name;
+    std::string file = (folder.empty() ? "." : folder) + "/" + name;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0) return file;
   }
@@ -126,7 +126,7 @@ void refuse_commands(const std::string& geo_file) {
   throw base::UserError(fmt::format(
       "{}{}; allowed are geometries that neither run programs nor write files, unless --allow-shell is given "
       "(do so only if you trust where it is from)",
-      command.rfind(geo_file, 0) == 0 ? "" : geo_file + ": ", command));
+      command.rfind(geo_file + ":", 0) == 0 ? "" : geo_file + ": ", command));
 }
 
 /// So that neither an older mesh nor what a failed gmsh left behind is taken for the result.

@@ -216,7 +216,8 @@ TEST(Abaqus, SidesOfSolidsAreThoseThatTheManualNumbers) {
 TEST(Abaqus, ElementsOfSecondOrderAreTakenByTheirCorners) {
   const std::string text =
       "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n5,.5,0\n6,1,.5\n7,.5,1\n8,0,.5\n*NSET,NSET=bottom\n1,5,2\n"
-      "*ELEMENT,TYPE=CPS8R,ELSET=plate\n1,1,2,3,4,\n5,6,7,8\n*SURFACE,NAME=right\n plate,S2\n";
+      "*ELEMENT,TYPE=CPS8R,ELSET=plate\n1,1,2,3,4,\n5,6,7,8\n*SURFACE,NAME=right\n plate,S2\n"
+      "*NSET,NSET=right\n2,3,6\n";
   const std::string file = written("second.inp", text);
   const Mesh<2> mesh = read_mesh<2>(file);
   EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 2, 3));
@@ -225,6 +226,21 @@ TEST(Abaqus, ElementsOfSecondOrderAreTakenByTheirCorners) {
   EXPECT_EQ(notes_of(mesh, file),
             "1 of 1 elements are of second order: they are taken by their corners, with straight edges, and 4 nodes "
             "between the corners are dropped\n");
+}
+
+TEST(Abaqus, ElementsForOtherFieldsHaveTheSameShapes) {
+  const Mesh<2> expected = read_mesh<2>(written("squares.inp", two_squares));
+  for (const char* type : {"DC2D4", "S4R", "CPS4T", "CPE4H", "M3D4"}) {
+    const std::string text = replaced(replaced(two_squares, "CPS4R", type), "cps4", type);
+    expect_same(read_mesh<2>(written("others.inp", text)), expected);
+  }
+  const std::string cube =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n*ELEMENT,TYPE=C3D8,ELSET=e\n"
+      "1,1,2,3,4,5,6,7,8\n";
+  for (const char* type : {"DC3D8", "C3D8RT", "SC8R"}) {
+    expect_same(read_mesh<3>(written("others.inp", replaced(cube, "C3D8", type))),
+                read_mesh<3>(written("cube.inp", cube)));
+  }
 }
 
 /// As gmsh writes them: its lower elements with sets, and everything else.
@@ -239,13 +255,14 @@ TEST(Abaqus, WhatGmshWritesIsRead) {
 }
 
 TEST(Abaqus, ElementsWithoutABodyArePassedOver) {
-  const std::string text =
-      replaced(two_squares, "*NSET, NSET=TOP",
-               "*ELEMENT, TYPE=SPRINGA\n201, 1, 2\n202, 1, 3\n*ELEMENT, TYPE=B21, ELSET=beam\n203, 1, 2\n"
-               "*NSET, NSET=TOP");
+  const std::string text = replaced(two_squares, "*NSET, NSET=TOP",
+                                    "*ELEMENT, TYPE=SPRINGA\n201, 1, 2\n202, 1, 3\n*ELEMENT, TYPE=B21, "
+                                    "ELSET=beam\n203, 1, 2\n*ELEMENT,TYPE=D\n204,1,2,3\n"
+                                    "*NSET, NSET=TOP");
   const std::string file = written("springs.inp", text);
   EXPECT_EQ(notes_of(read_mesh<2>(file), file),
             "1 elements of type B21, which have no body, are passed over\n"
+            "1 elements of type D, which have no body, are passed over\n"
             "2 elements of type SPRINGA, which have no body, are passed over\n");
 }
 

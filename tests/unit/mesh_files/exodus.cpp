@@ -28,13 +28,15 @@ struct Sides {
 using Points = std::vector<std::array<double, 3>>;
 
 /// An Exodus file with numbers of 64 bits and no names. Returns its name.
-std::string exodus_file(const Points& points, const std::vector<Block>& blocks, const std::vector<Sides>& sets) {
-  const std::string name = test_file("mesh.e");
+std::string exodus_file(const Points& points, const std::vector<Block>& blocks, const std::vector<Sides>& sets,
+                        const std::vector<std::int64_t>& node_set = {}) {
+  std::string name = test_file("mesh.e");
   const ExodusWriter file(name, EX_CLOBBER | EX_NETCDF4 | EX_ALL_INT64_DB | EX_ALL_INT64_API);
   std::int64_t n_elements = 0;
   for (const Block& block : blocks) n_elements += static_cast<std::int64_t>(block.nodes.size()) / block.n_nodes;
   file.check(ex_put_init(file.id(), "a test", 3, static_cast<std::int64_t>(points.size()), n_elements,
-                         static_cast<std::int64_t>(blocks.size()), 0, static_cast<std::int64_t>(sets.size())));
+                         static_cast<std::int64_t>(blocks.size()), node_set.empty() ? 0 : 1,
+                         static_cast<std::int64_t>(sets.size())));
   std::array<std::vector<double>, 3> axes;
   for (const auto& point : points) {
     for (std::size_t d = 0; d < 3; ++d) axes[d].push_back(point[d]);
@@ -48,6 +50,10 @@ std::string exodus_file(const Points& points, const std::vector<Block>& blocks, 
   for (const Sides& set : sets) {
     file.check(ex_put_set_param(file.id(), EX_SIDE_SET, set.id, static_cast<std::int64_t>(set.elements.size()), 0));
     file.check(ex_put_set(file.id(), EX_SIDE_SET, set.id, set.elements.data(), set.sides.data()));
+  }
+  if (!node_set.empty()) {
+    file.check(ex_put_set_param(file.id(), EX_NODE_SET, 1, static_cast<std::int64_t>(node_set.size()), 0));
+    file.check(ex_put_set(file.id(), EX_NODE_SET, 1, node_set.data(), nullptr));
   }
   return name;
 }
@@ -160,6 +166,20 @@ TEST(Exodus, ElementsOfSecondOrderAreTakenByTheirCorners) {
             "1 of 1 elements are of second order: they are taken by their corners, with straight edges, and 12 nodes "
             "between the corners are dropped\n"
             "4 node(s) that belong to no 3D element are dropped: 3, 6, 9, 12\n");
+}
+
+/// As libMesh writes them: the node set also has the nodes between the corners.
+TEST(Exodus, ANodeSetOfSecondOrderIsTheSideSetOfItsName) {
+  const Points points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, 0, 0}, {1, .5, 0}, {.5, 1, 0}, {0, .5, 0}};
+  const std::string file = exodus_file(points, {{1, "QUAD8", 8, {1, 2, 3, 4, 5, 6, 7, 8}}}, {{1, {1}, {1}}}, {1, 2, 5});
+  {
+    const ExodusWriter writer(file);
+    writer.check(ex_put_name(writer.id(), EX_SIDE_SET, 1, "bottom"));
+    writer.check(ex_put_name(writer.id(), EX_NODE_SET, 1, "bottom"));
+  }
+  const Mesh<2> mesh = read_mesh<2>(file);
+  EXPECT_THAT(mesh.node_sets.at("bottom"), ElementsAre(0, 1));
+  EXPECT_THAT(mesh.side_sets.at("bottom"), ElementsAre(Side{0, 0}));
 }
 
 TEST(Exodus, NumbersOfNodesThatOccurTwiceDoNotMatter) {

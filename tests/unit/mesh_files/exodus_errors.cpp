@@ -115,13 +115,6 @@ TEST(ExodusErrors, NumbersOutOfRange) {
   EXPECT_THAT(error_of(exodus_text(mesh)), HasSubstr("node set \"corner\" has node 0; allowed are 1 to 6"));
 }
 
-TEST(ExodusErrors, ANodeSetAndASideSetOfOneNameThatDiffer) {
-  Mesh<2> mesh = mesh::grid<2>({2, 1});
-  mesh.node_sets["left"] = {0, 1};
-  EXPECT_THAT(error_of(exodus_text(mesh)),
-              HasSubstr("a node set and a side set are called \"left\", but have different"));
-}
-
 TEST(ExodusErrors, ACoordinateThatIsNoNumber) {
   Mesh<2> mesh = mesh::grid<2>({2, 1});
   mesh.coordinates[2][1] = std::nan("");

@@ -116,7 +116,7 @@ TEST(Geometry, CommandsThatRunProgramsOrWriteFilesAreRefused) {
            "Merge StrCat(\"oth\", \"er.geo\");",
            "General.SaveSession = 1; General.SessionFileName = \"" + file + "\";"}) {
     SCOPED_TRACE(command);
-    EXPECT_THAT(refusal(square + "\n" + command),
+    EXPECT_THAT(refusal(fmt::format("{}\n{}", square, command)),
                 HasSubstr("; allowed are geometries that neither run programs nor write "
                           "files, unless --allow-shell is given"));
     EXPECT_FALSE(std::filesystem::exists(file));
@@ -129,6 +129,15 @@ TEST(Geometry, TheRefusalNamesThePlace) {
   written("other.geo", "\nSave \"x\";");
   written("between.geo", "Include \"other.geo\";\nInclude \"between.geo\";");
   EXPECT_THAT(refusal("Include 'between.geo';" + square), HasSubstr("other.geo:2: Save writes a file; allowed"));
+}
+
+TEST(Geometry, OptionsBesideTheGeometryRunNoCommandsEither) {
+  const std::string file = test_file("written"),
+                    options = written("plate.geo.opt", "Printf(\"a\") > \"" + file + "\";");
+  std::filesystem::remove(file);
+  EXPECT_THAT(refusal(square), HasSubstr("plate.geo.opt:1: Printf writes a file; allowed"));
+  EXPECT_FALSE(std::filesystem::exists(file));
+  std::filesystem::remove(options);
 }
 
 TEST(Geometry, WhatOnlyLooksLikeACommandIsNotRefused) {

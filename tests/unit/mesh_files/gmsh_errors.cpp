@@ -201,10 +201,11 @@ TEST(GmshErrors, ElementInTwoGroups) {
   }
 }
 
-TEST(GmshErrors, TwoGroupsOfOneName) {
-  const std::string geo = structured_plate + "Physical Point(\"left\", 9) = {3};";
-  EXPECT_THAT(error_of_reading<2>(meshed(geo, 2, "-format msh41", "names")),
-              HasSubstr("two groups are named \"left\": point 9 and curve 2; give each its own name"));
+TEST(GmshErrors, TwoBlocksOfOneName) {
+  const std::string names =
+      replaced(replaced(two_squares_2_2, "Names\n2", "Names\n3"), "2 1 \"plate\"", "2 1 \"plate\"\n2 4 \"plate\"");
+  EXPECT_THAT(error_of(replaced(names, "13 3 2 1 3", "13 3 2 4 3")),
+              HasSubstr("two groups are named \"plate\": surface 1 and surface 4; give each its own name"));
 }
 
 // ---- damage ----
