@@ -18,8 +18,7 @@ bool is_control(char c);
 /// Whether a name or message has such characters.
 bool has_control_characters(const std::string& text);
 
-/// The text with visible codes, such as \x1b, in place of characters that steer a terminal; ends of lines and tabs
-/// stay.
+/// The text with hexadecimal codes in place of characters that steer a terminal; ends of lines and tabs stay.
 std::string printable(const std::string& text);
 
 }  // namespace perimorph::base
