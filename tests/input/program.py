@@ -156,6 +156,61 @@ class Meshes(Program):
         self.assert_refused("a count of 1999999999, but the rest of the file holds at most")
 
 
+class Notes(Program):
+    REVERSED = MSH.replace("10 5 1 0\n", "10 5 1 0\n77 9 9 0\n").replace("$Nodes\n10", "$Nodes\n11")
+    NOTE = "plate.msh: 1 node(s) that belong to no 2D element are dropped: 77\n"
+
+    def test_what_reading_changed_is_told_by_check_and_run(self):
+        self.write("plate.msh", self.REVERSED)
+        for command in ["check", "run"]:
+            run = self.perimorph(command, self.case, *(["--output", "out"] if command == "run" else []), ranks=2)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual((run.stdout + run.stderr).count(self.NOTE), 1, run.stdout + run.stderr)
+        self.assertIn(self.NOTE, (self.folder / "out" / "run.log").read_text())
+
+    def test_a_group_that_was_left_out_and_is_used_is_a_mistake_that_says_why(self):
+        self.write("plate.msh", MSH.replace('0 1 "corner"', '0 1 "left"'))
+        why = 'the groups called "left" are left out, since their nodes differ: give each its own name'
+        mistake = 'has no group of nodes called "left"; it has "apart"'
+        self.assert_refused(f"x/Group: the mesh plate.msh {mistake} ({self.folder}/plate.msh: {why})", ranks=[1])
+
+
+class Geometries(Program):
+    PLATE = """SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 6, 1}; MeshSize{:} = 1;
+        Physical Surface("plate", 1) = {1}; Physical Curve("left", 2) = {4};
+        """
+
+    def setUp(self):
+        super().setUp()
+        self.write_case({"Mesh/File": "plate.geo", DISPLACEMENTS: HELD})
+        self.written = self.folder / "written"
+
+    def test_commands_run_only_if_they_are_allowed(self):
+        self.write("plate.geo", f'{self.PLATE}SystemCall "touch {self.written}";')
+        self.assert_refused("plate.geo:3: SystemCall runs a command; allowed are", "--allow-shell")
+        self.assertFalse(self.written.exists())
+        run = self.perimorph("check", self.case, "--allow-shell", ranks=2)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("commands and writing files are allowed (--allow-shell)\n", run.stdout)
+        self.assertTrue(self.written.exists())
+
+    def test_a_case_cannot_allow_them_itself(self):
+        self.write("plate.geo", f'{self.PLATE}SystemCall "touch {self.written}";')
+        self.write_case({"Mesh/File": "plate.geo", "Mesh/Shell": True, DISPLACEMENTS: HELD})
+        self.assert_refused("Shell", "SystemCall runs a command", ranks=[1])
+        self.assertFalse(self.written.exists())
+
+    def test_check_says_that_a_geometry_is_a_program(self):
+        self.write("plate.geo", self.PLATE)
+        run = self.perimorph("check", self.case)
+        refused = "geometry         a program that gmsh runs; commands and writing files are refused (--allow-shell)\n"
+        self.assertIn(refused, run.stdout, run.stderr)
+
+    def test_a_geometry_without_a_body_is_named_itself(self):
+        self.write("plate.geo", self.PLATE.replace('Physical Surface("plate", 1) = {1};', ""))
+        self.assert_refused("plate.geo: the mesh has no elements of dimension 2, its highest is 1: put what", ranks=[1])
+
+
 class Conditions(Program):
     def test_a_part_of_the_body_that_nothing_holds(self):
         self.write_case({DISPLACEMENTS: HELD})

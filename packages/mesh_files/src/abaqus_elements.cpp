@@ -15,26 +15,21 @@ struct Stem {
   const char* name;
   AbaqusType type;
 };
-constexpr Stem stems[] = {{"C3D4", {Shape::tetrahedron, 4}},    {"C3D5", {Shape::pyramid, 5}},
-                          {"C3D6", {Shape::wedge, 6}},          {"C3D8", {Shape::hexahedron, 8}},
-                          {"C3D10", {Shape::tetrahedron, 10}},  {"C3D15", {Shape::wedge, 15}},
-                          {"C3D20", {Shape::hexahedron, 20}},   {"CPS3", {Shape::triangle, 3}},
-                          {"CPS4", {Shape::quadrangle, 4}},     {"CPS6", {Shape::triangle, 6}},
-                          {"CPS8", {Shape::quadrangle, 8}},     {"CPE3", {Shape::triangle, 3}},
-                          {"CPE4", {Shape::quadrangle, 4}},     {"CPE6", {Shape::triangle, 6}},
-                          {"CPE8", {Shape::quadrangle, 8}},     {"DC3D4", {Shape::tetrahedron, 4}},
-                          {"DC3D6", {Shape::wedge, 6}},         {"DC3D8", {Shape::hexahedron, 8}},
-                          {"DC3D10", {Shape::tetrahedron, 10}}, {"DC3D15", {Shape::wedge, 15}},
-                          {"DC3D20", {Shape::hexahedron, 20}},  {"DC2D3", {Shape::triangle, 3}},
-                          {"DC2D4", {Shape::quadrangle, 4}},    {"DC2D6", {Shape::triangle, 6}},
-                          {"DC2D8", {Shape::quadrangle, 8}},    {"SC6", {Shape::wedge, 6}},
-                          {"SC8", {Shape::hexahedron, 8}},      {"S6", {Shape::triangle, 6}},
-                          {"S3", {Shape::triangle, 3}},         {"S4", {Shape::quadrangle, 4}},
-                          {"S8", {Shape::quadrangle, 8}},       {"S9", {Shape::quadrangle, 9}},
-                          {"STRI3", {Shape::triangle, 3}},      {"STRI65", {Shape::triangle, 6}},
-                          {"M3D3", {Shape::triangle, 3}},       {"M3D4", {Shape::quadrangle, 4}},
-                          {"M3D6", {Shape::triangle, 6}},       {"M3D8", {Shape::quadrangle, 8}},
-                          {"T2D2", {Shape::line, 2}},           {"T3D2", {Shape::line, 2}}};
+constexpr Stem stems[] = {
+    {"C3D4", {Shape::tetrahedron, 4}},    {"C3D5", {Shape::pyramid, 5}},       {"C3D6", {Shape::wedge, 6}},
+    {"C3D8", {Shape::hexahedron, 8}},     {"C3D10", {Shape::tetrahedron, 10}}, {"C3D15", {Shape::wedge, 15}},
+    {"C3D20", {Shape::hexahedron, 20}},   {"CPS3", {Shape::triangle, 3}},      {"CPS4", {Shape::quadrangle, 4}},
+    {"CPS6", {Shape::triangle, 6}},       {"CPS8", {Shape::quadrangle, 8}},    {"CPE3", {Shape::triangle, 3}},
+    {"CPE4", {Shape::quadrangle, 4}},     {"CPE6", {Shape::triangle, 6}},      {"CPE8", {Shape::quadrangle, 8}},
+    {"DC3D4", {Shape::tetrahedron, 4}},   {"DC3D6", {Shape::wedge, 6}},        {"DC3D8", {Shape::hexahedron, 8}},
+    {"DC3D10", {Shape::tetrahedron, 10}}, {"DC3D15", {Shape::wedge, 15}},      {"DC3D20", {Shape::hexahedron, 20}},
+    {"DC2D3", {Shape::triangle, 3}},      {"DC2D4", {Shape::quadrangle, 4}},   {"DC2D6", {Shape::triangle, 6}},
+    {"DC2D8", {Shape::quadrangle, 8}},    {"SC6", {Shape::wedge, 6}},          {"SC8", {Shape::hexahedron, 8}},
+    {"S6", {Shape::triangle, 6}},         {"S3", {Shape::triangle, 3}},        {"S4", {Shape::quadrangle, 4}},
+    {"S8", {Shape::quadrangle, 8}},       {"S9", {Shape::quadrangle, 9}},      {"STRI3", {Shape::triangle, 3}},
+    {"STRI65", {Shape::triangle, 6}},     {"M3D3", {Shape::triangle, 3}},      {"M3D4", {Shape::quadrangle, 4}},
+    {"M3D6", {Shape::triangle, 6}},       {"M3D8", {Shape::quadrangle, 8}},    {"M3D9", {Shape::quadrangle, 9}},
+    {"T2D2", {Shape::line, 2}},           {"T3D2", {Shape::line, 2}}};
 
 constexpr const char* beginnings_without_body[] = {"T2D3", "T3D3", "B21",     "B22",    "B23",     "B31",   "B32",
                                                    "B33",  "MASS", "ROTARYI", "SPRING", "DASHPOT", "CONN",  "R2D2",

@@ -60,8 +60,8 @@ class MeshBuilder {
     name_blocks();
     add_elements();
     add_used_nodes();
-    const int n_turned = turn_reversed_elements();
-    check_sides(n_turned > 0);
+    turn_reversed_elements();
+    check_sides();
     find_boundary(mesh_);
     add_sets();
     give_to_rank_0();
@@ -208,15 +208,17 @@ class MeshBuilder {
 
   void check_dimensions() {
     int highest = -1;
+    bool has_body = false;
     for (std::size_t e = 0; e < file_.n_elements(); ++e) {
       highest = std::max(highest, dimension_of(e));
+      has_body = has_body || dimension_of(e) == dim;
       if (dimension_of(e) > dim && !groups_of(e).empty()) {
         fail("element {} is of dimension {}, but the case has dimension {}", file_.element_tags[e], dimension_of(e),
              dim);
       }
     }
     if (highest < 0) fail("the mesh has no elements");
-    if (highest < dim) {
+    if (!has_body) {
       fail("the mesh has no elements of dimension {}, its highest is {}: {}", dim, highest, file_.advice);
     }
     if (dim == 3 && file_.n_plane_bodies > 0) {
@@ -279,8 +281,7 @@ class MeshBuilder {
 
   // ---- checks of the whole mesh ----
 
-  /// Returns how many.
-  int turn_reversed_elements() {
+  void turn_reversed_elements() {
     int n_turned = 0, first_turned = -1, n_wrong = 0, first_wrong = -1;
     for (int e = 0; e < mesh_.n_elements(); ++e) {
       if (smallest_corner_volume(mesh_, e) > smallest_allowed_volume) continue;
@@ -299,7 +300,6 @@ class MeshBuilder {
       note("{} of {} elements have their nodes in reversed order and are turned (the first is element {})", n_turned,
            mesh_.n_elements(), file_tags_[first_turned]);
     }
-    return n_turned;
   }
 
   /// Mirrors the order of an element's corners.
@@ -312,7 +312,7 @@ class MeshBuilder {
   }
 
   /// A side has two elements, which see it from opposite sides; anything else is an overlap.
-  void check_sides(bool are_some_turned) {
+  void check_sides() {
     sides_ = sorted_sides(mesh_);
     for (std::size_t i = 0; i + 1 < sides_.size(); ++i) {
       if (sides_[i].key != sides_[i + 1].key) continue;
@@ -322,7 +322,7 @@ class MeshBuilder {
         fail("elements {}, {} and {} share one side: they overlap", file_tags_[first], file_tags_[second],
              file_tags_[sides_[i + 2].side.element]);
       }
-      if (are_some_turned && run_alike(sides_[i].side, sides_[i + 1].side)) {
+      if (run_alike(sides_[i].side, sides_[i + 1].side)) {
         fail("elements {} and {} lie on the same side of the side they share: they overlap", file_tags_[first],
              file_tags_[second]);
       }
@@ -330,11 +330,17 @@ class MeshBuilder {
   }
 
   /// Whether two sides with the same nodes run round them in the same sense.
-  bool run_alike(const Side& first, const Side& second) const {
-    const std::vector<int> a = side_nodes(mesh_, first), b = side_nodes(mesh_, second);
-    if (dim == 2) return a == b;
-    const auto start = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
-    return b[(start + 1) % b.size()] == a[1];
+  bool run_alike(const Side& a, const Side& b) const {
+    const std::vector<int>&corners_a = corners_of(a), &corners_b = corners_of(b);
+    const int *nodes_a = mesh_.corners_of(a.element), *nodes_b = mesh_.corners_of(b.element);
+    std::size_t start = 0;
+    while (nodes_b[corners_b[start]] != nodes_a[corners_a[0]]) ++start;
+    if (dim == 2) return start == 0;
+    return nodes_b[corners_b[(start + 1) % corners_b.size()]] == nodes_a[corners_a[1]];
+  }
+
+  const std::vector<int>& corners_of(const Side& side) const {
+    return mesh::sides(mesh_.types[side.element])[static_cast<std::size_t>(side.side)];
   }
 
   bool same_nodes(int a, int b) const {

@@ -309,6 +309,19 @@ TEST(AbaqusErrors, Elements) {
               HasSubstr("an element with 3 nodes; its type has 4"));
 }
 
+TEST(AbaqusErrors, SolidsWithoutAGroupInAPlaneCase) {
+  EXPECT_THAT(error_of_reading<2>(written(
+                  "tetrahedron.inp", "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n")),
+              HasSubstr("the mesh has no elements of dimension 2, its highest is 3"));
+}
+
+TEST(AbaqusErrors, AShellOverElements) {
+  const std::string text =
+      "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT,TYPE=CPE3\n1,1,2,3\n2,1,3,4\n*ELEMENT,TYPE=S4\n3,1,2,3,4\n";
+  EXPECT_THAT(error_of_reading<2>(written("skin.inp", text)),
+              HasSubstr("elements 1 and 3 lie on the same side of the side they share: they overlap"));
+}
+
 TEST(AbaqusErrors, WhatAbaqusItselfWouldMake) {
   for (const char* keyword : {"NGEN", "NFILL", "ELGEN", "NCOPY", "SYSTEM"}) {
     EXPECT_THAT(error_of(replaced(two_squares, "*MATERIAL", std::string("*") + keyword + "\n1, 2\n*MATERIAL")),
