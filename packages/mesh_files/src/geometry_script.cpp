@@ -3,6 +3,7 @@
 
 #include "geometry_script.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -39,6 +40,7 @@ class Tokens {
   }
 
   const std::vector<Token>& all() const { return tokens_; }
+  const std::string& text() const { return text_; }
 
  private:
   void next() {
@@ -176,10 +178,24 @@ std::string command_beyond_meshing(const std::string& geometry) {
 std::vector<std::string> undone_commands(const std::string& geometry) {
   const Tokens tokens(geometry);
   const auto& all = tokens.all();
+  std::vector<std::string> found;
   for (std::size_t i = 0; i + 2 < all.size(); ++i) {
-    if (all[i].is("Plugin") && all[i + 1].is("(") && all[i + 2].is("Crack")) return {"Plugin(Crack)"};
+    if (all[i].is("Plugin") && all[i + 1].is("(") && all[i + 2].is("Crack")) found = {"Plugin(Crack)"};
   }
-  return {};
+  for (const Token& token : all) {
+    if (token.kind != Token::Kind::word || !token.is("RecombineMesh")) continue;
+    found.emplace_back("RecombineMesh");
+    break;
+  }
+  return found;
+}
+
+bool loses_its_end(const std::string& geometry) {
+  const Tokens tokens(geometry);
+  if (tokens.text().empty() || tokens.text().back() == '\n') return false;
+  const auto last_line = 1 + std::count(tokens.text().begin(), tokens.text().end(), '\n');
+  const auto ends_command = [&](const Token& token) { return token.line == last_line && token.is(";"); };
+  return std::count_if(tokens.all().begin(), tokens.all().end(), ends_command) > 1;
 }
 
 }  // namespace perimorph::mesh_files

@@ -143,6 +143,12 @@ void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int
   PERIMORPH_ASSERT(dimension == 2 || dimension == 3, "a mesh of dimension {}", dimension);
   require_regular_file(geo_file, "a geometry of gmsh");
   if (shell == Shell::refused) refuse_commands(geo_file);
+  if (loses_its_end(geo_file)) {
+    throw base::UserError(
+        geo_file +
+        ": gmsh passes over the last command, since its line holds several and does not end in a line "
+        "break: allowed is a last line that does");
+  }
   remove_quietly(msh_file);
   const std::string gmsh = find_program("gmsh");
   if (gmsh.empty()) {

@@ -197,9 +197,23 @@ TEST(Geometry, MessagesNameTheGeometryNotTheMeshMadeOfIt) {
   EXPECT_THAT(said_of<2>(third), HasSubstr("is of gmsh's kind"));
 }
 
-TEST(Geometry, ACrackThatMeshingAnewUndoesIsTold) {
-  const std::string crack = "Mesh 2; Plugin(Crack).Dimension = 1; Plugin(Crack).PhysicalGroup = 2; Plugin(Crack).Run;";
+TEST(Geometry, ALastCommandThatGmshPassesOverIsAnError) {
+  for (const std::string end : {"Physical Curve(\"a\", 7) = {1}; Physical Curve(\"b\", 8) = {3};",
+                                "Physical Curve(\"a\", 7) = {1}; Physical Curve(\"b\", 8) = {3}; // comment"}) {
+    EXPECT_THAT(said_of<2>(written("plate.geo", square + end)),
+                HasSubstr("plate.geo: gmsh passes over the last command"));
+    EXPECT_EQ(said_of<2>(written("plate.geo", square + end + "\n")), "");
+  }
+  const std::string geo = written("plate.geo", square + "Physical Curve(\"a\", 7) = {1};");
+  EXPECT_EQ(mesh_and_read<2>(geo, std::filesystem::path(geo).parent_path()).side_sets.count("a"), 1u);
+}
+
+TEST(Geometry, WhatMeshingAnewUndoesIsTold) {
+  const std::string crack =
+      "Mesh 2; Plugin(Crack).Dimension = 1; Plugin(Crack).PhysicalGroup = 2; Plugin(Crack).Run;\n";
   EXPECT_THAT(said_of<2>(written("plate.geo", square + crack)), HasSubstr("Plugin(Crack) has no effect"));
+  EXPECT_THAT(said_of<2>(written("plate.geo", square + "Mesh 2; RecombineMesh;\n")),
+              HasSubstr("RecombineMesh has no effect: the geometry is meshed after all its commands, anew"));
   EXPECT_EQ(said_of<2>(written("plate.geo", square + "// Plugin(Crack).Run;")), "");
 }
 
