@@ -86,9 +86,11 @@ void carry_out(const Teuchos::RCP<const base::Comm>& comm, const std::string& co
   const char* reason = "a call that must not fail has failed";
   try {
     if (const auto error = std::current_exception()) std::rethrow_exception(error);
-  } catch (const std::bad_alloc&) {
-    status = 3;
-    reason = "there is no memory left";
+  } catch (const std::exception& error) {
+    if (base::is_out_of_memory(error)) {
+      status = 3;
+      reason = "there is no memory left";
+    }
   } catch (...) {
   }
   std::fprintf(stderr, "perimorph: %s: all ranks are ended\n", reason);

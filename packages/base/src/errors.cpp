@@ -2,6 +2,8 @@
 
 #include <mpi.h>
 
+#include <new>
+
 namespace perimorph::base {
 
 namespace {
@@ -16,6 +18,12 @@ int rank_of_process() {
 }
 
 }  // namespace
+
+bool is_out_of_memory(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return true;
+  if (dynamic_cast<const MemoryError*>(&error) != nullptr) return true;
+  return std::string(error.what()).rfind("Kokkos failed to allocate memory", 0) == 0;  // a std::runtime_error
+}
 
 void fail_assertion(const char* file, int line, const char* condition, const std::string& values) {
   throw Bug(fmt::format("{}:{}: rank {}: {} does not hold: {}", file, line, rank_of_process(), condition, values));

@@ -1,7 +1,5 @@
 #include "failure.hpp"
 
-#include <new>
-
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::base {
@@ -17,9 +15,8 @@ Failure failure_of(const std::function<void()>& work) {
     return {Kind::memory, error.what()};
   } catch (const ComputationError& error) {
     return {Kind::computation, error.what()};
-  } catch (const std::bad_alloc&) {
-    return {Kind::memory, "there is no memory left"};
   } catch (const std::exception& error) {
+    if (is_out_of_memory(error)) return {Kind::memory, "there is no memory left"};
     return {Kind::bug, error.what()};
   }
 }

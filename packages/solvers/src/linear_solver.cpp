@@ -42,13 +42,10 @@ template <class Work>
 void translated(const char* what, const Work& work) {
   try {
     work();
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const base::MemoryError&) {
-    throw;
   } catch (const base::Bug&) {
     throw;
   } catch (const std::exception& error) {
+    if (base::is_out_of_memory(error)) throw;
     throw base::ComputationError(what + std::string(error.what()));
   }
 }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Kokkos_Core.hpp>
 #include <Tpetra_Core.hpp>
 #include <new>
 
@@ -61,6 +62,13 @@ TEST_F(Consensus, TellsThatThereIsNoMemory) {
     if (rank == n_ranks - 1) throw std::bad_alloc();
   };
   EXPECT_EQ(error_of<MemoryError>(fail), "there is no memory left");
+}
+
+TEST_F(Consensus, TellsThatThereIsNoMemoryForAnArrayOfKokkos) {
+  const auto allocate = [&] {
+    if (rank == n_ranks - 1) Kokkos::View<double*> too_large("too large", std::size_t{1} << 50);
+  };
+  EXPECT_EQ(error_of<MemoryError>(allocate), "there is no memory left");
 }
 
 TEST_F(Consensus, SpeaksOnAChannelOfItsOwn) {

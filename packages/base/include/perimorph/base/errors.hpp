@@ -22,6 +22,9 @@ struct MemoryError : ComputationError {
   using ComputationError::ComputationError;
 };
 
+/// Whether an error says that, of whichever library. Local.
+bool is_out_of_memory(const std::exception& error);
+
 /// A broken invariant of the program itself. Exit status 1.
 struct Bug : std::logic_error {
   using std::logic_error::logic_error;
