@@ -12,7 +12,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import CASE, MPIEXEC, PERIMORPH, Plate, changed, settings
+from fixture import CASE, MPIEXEC, PERIMORPH, Plate, changed, settings, until
 
 MEMORY = 8 << 30  # of address space, for each rank: Open MPI and libraries take half a gigabyte of it
 
@@ -205,6 +205,15 @@ class Geometries(Program):
         run = self.perimorph("check", self.case)
         refused = "geometry         a program that gmsh runs; commands and writing files are refused (--allow-shell)\n"
         self.assertIn(refused, run.stdout, run.stderr)
+
+    def test_gmsh_does_not_outlive_the_program(self):
+        self.write("plate.geo", f"{self.PLATE}For i In {{1:2000000000}}\n x = i;\nEndFor\n")
+        gmsh = ["pgrep", "-f", f"gmsh .*{self.folder}"]
+        meshes = lambda: subprocess.run(gmsh, capture_output=True).returncode == 0
+        with subprocess.Popen([PERIMORPH, "check", self.case], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
+            self.assertTrue(until(meshes))
+            run.kill()
+        self.assertTrue(until(lambda: not meshes()))
 
     def test_a_geometry_without_a_body_is_named_itself(self):
         self.write("plate.geo", self.PLATE.replace('Physical Surface("plate", 1) = {1};', ""))

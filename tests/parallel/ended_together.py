@@ -8,22 +8,12 @@ import pathlib
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import PERIMORPH, TOOLS, GrowingCrack, settings
+from fixture import PERIMORPH, TOOLS, GrowingCrack, settings, until
 
 SECONDS = 20  # a rank that is asked to end may finish a solve first
-
-
-def until(condition, seconds=60):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            return False
-        time.sleep(0.05)
-    return True
 
 
 class Killed(GrowingCrack):

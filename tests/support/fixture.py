@@ -9,6 +9,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import netCDF4
@@ -93,6 +94,16 @@ def plate_mesh(columns=N):
 def text_of(variable):
     """The names that a variable of characters holds."""
     return [str(name) for name in netCDF4.chartostring(variable[:])]
+
+
+def until(condition, seconds=60):
+    """Waits for a condition; returns whether it came true in time."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.05)
+    return True
 
 
 class InFolder(unittest.TestCase):

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,6 +30,8 @@ std::string read_to_end(int descriptor) {
 
 /// A filter of system calls: execve() must name the program by the address of this one string, which the memory of the
 /// started program no longer has.
+void end_with_parent() { prctl(PR_SET_PDEATHSIG, SIGKILL); }
+
 void forbid_other_programs(const char* allowed) {
   const auto address = reinterpret_cast<std::uintptr_t>(allowed);
   const auto low = static_cast<std::uint32_t>(address),

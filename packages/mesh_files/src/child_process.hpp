@@ -10,6 +10,9 @@ namespace perimorph::mesh_files {
 /// @param descriptor the end to read from
 std::string read_to_end(int descriptor);
 
+/// From here on this process, a child, does not outlive the one that has started it. May be called after fork(). Local.
+void end_with_parent();
+
 /// From here on this process and its children start no program but one, as far as the system can see to that (Linux on
 /// x86-64 and ARM). May be called between fork() and exec(). Local.
 /// @param allowed the very string that execve() will be called with

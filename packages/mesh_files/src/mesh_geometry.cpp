@@ -78,6 +78,7 @@ Outcome run(Words command, Shell shell) {
   const std::vector<char*> arguments = pointers(command), variables = pointers(environment);
   const pid_t process = fork();
   if (process == 0) {
+    end_with_parent();
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(ends[1], STDOUT_FILENO);
     dup2(ends[1], STDERR_FILENO);

@@ -62,6 +62,7 @@ std::string on_trial(const std::function<void()>& work, std::size_t memory, unsi
   if (pipe2(ends, O_CLOEXEC) != 0) return std::strerror(errno);
   const pid_t process = fork();
   if (process == 0) {
+    end_with_parent();
     confine(memory, seconds);
     work_and_exit(work, ends[1]);
   }
