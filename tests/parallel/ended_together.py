@@ -27,8 +27,7 @@ class Killed(GrowingCrack):
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         self.addCleanup(lambda: [os.kill(pid, signal.SIGKILL) for pid in self.pids("(perimorph|mpirun)")])
         self.addCleanup(run.kill)
-        history = self.output / "history.csv"
-        self.assertTrue(until(lambda: history.is_file() and len(history.read_text().splitlines()) > 2))
+        self.wait_for(lambda: self.has_rows(2))
         self.assertEqual(len(self.pids(PERIMORPH)), 2)
         return run
 

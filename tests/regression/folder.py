@@ -8,27 +8,14 @@ import pathlib
 import re
 import shutil
 import sys
-import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import EVERY, INCREMENTS, settings
+from fixture import ENDLESS, EVERY, INCREMENTS, settings
 from whole_run import WholeRun, order_in_series
-
-ENDLESS = settings("Loading/Increments=1000000", "Output/Every=1000000", "Material/Critical Stretch=1e3")
 
 
 class InFolder(WholeRun):
-    def wait_for(self, condition):
-        end = time.monotonic() + 60
-        while not condition():
-            self.assertLess(time.monotonic(), end, "nothing happened")
-            time.sleep(0.01)
-
-    def has_rows(self, n):
-        file = self.output / "history.csv"
-        return file.exists() and len(file.read_bytes().splitlines()) > n
-
     def contents(self):
         return {path.name: path.read_bytes() for path in self.output.iterdir()}
 

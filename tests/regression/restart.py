@@ -18,7 +18,7 @@ import unittest
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import EVERY, INCREMENTS, MPIEXEC, N, PERIMORPH, GrowingCrack, plate_mesh, settings
+from fixture import ENDLESS, EVERY, INCREMENTS, N, GrowingCrack, plate_mesh
 
 
 class Continued(GrowingCrack):
@@ -172,31 +172,10 @@ class Refused(GrowingCrack):
 class Ended(GrowingCrack):
     """By signals, errors and a full disk: status 3 in order, or at once by SIGKILL."""
 
-    ENDLESS = settings("Loading/Increments=1000000", "Output/Every=1000000", "Material/Critical Stretch=1e3")
-
-    def start(self, *options, ranks=1, **process):
-        command = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
-        command += [PERIMORPH, "run", self.case, "--output", self.output, "--quiet", *options]
-        run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **process)
-        self.addCleanup(run.stderr.close)
-        self.addCleanup(run.wait)
-        self.addCleanup(run.kill)
-        return run
-
-    def wait_for(self, condition):
-        end = time.monotonic() + 60
-        while not condition():
-            self.assertLess(time.monotonic(), end, "nothing happened")
-            time.sleep(0.01)
-
-    def has_rows(self, n):
-        file = self.output / "history.csv"
-        return file.exists() and len(file.read_text().splitlines()) > n
-
     def test_a_signal_ends_it_after_writing_the_last_accepted_increment(self):
         for name, ranks in [("SIGTERM", 1), ("SIGINT", 1), ("SIGTERM", 2)]:
             with self.subTest(name=name, ranks=ranks):
-                run = self.start(*self.ENDLESS, ranks=ranks)
+                run = self.start(*ENDLESS, ranks=ranks)
                 self.wait_for(lambda: self.has_rows(5))
                 process = run.pid
                 if ranks > 1:  # one of them alone
@@ -210,14 +189,14 @@ class Ended(GrowingCrack):
                 (self.output / "history.csv").unlink()
 
     def test_the_clock_writes_them_too(self):
-        run = self.start(*self.ENDLESS, "--set", "Output/Checkpoint Minutes=0.005")
+        run = self.start(*ENDLESS, "--set", "Output/Checkpoint Minutes=0.005")
         self.wait_for(lambda: self.checkpoints() and ".part" not in str(self.checkpoints()))
         first = self.checkpoints()
         self.wait_for(lambda: self.checkpoints()[-1:] != first[-1:])
         self.assertIsNone(run.poll())
 
     def test_sigusr1_writes_one_and_the_run_goes_on(self):
-        run = self.start(*self.ENDLESS)
+        run = self.start(*ENDLESS)
         self.wait_for(lambda: self.has_rows(1))
         for n in [1, 2, 2]:
             before = self.checkpoints()

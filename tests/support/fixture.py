@@ -66,6 +66,10 @@ def settings(*texts):
     return [option for text in texts for option in ("--set", text)]
 
 
+# A run that has to be ended.
+ENDLESS = settings("Loading/Increments=1000000", "Output/Every=1000000", "Material/Critical Stretch=1e3")
+
+
 def coarsen(geometry, text, coarser):
     """Changes the size of elements in gmsh's geometry."""
     before = geometry.read_text()
@@ -102,7 +106,7 @@ def until(condition, seconds=60):
     while not condition():
         if time.monotonic() > end:
             return False
-        time.sleep(0.05)
+        time.sleep(0.01)
     return True
 
 
@@ -155,6 +159,26 @@ class GrowingCrack(Plate):
     def run_until(self, increment, *options, ranks=1):
         run = self.run_case("--quiet", *settings(f"Loading/Increments={increment}"), *options, ranks=ranks)
         self.assertEqual(run.returncode, 0, run.stderr)
+
+    def command(self, *options, ranks=1, output=None):
+        command = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
+        return [*command, PERIMORPH, "run", self.case, "--output", output or self.output, "--quiet", *options]
+
+    def start(self, *options, ranks=1, output=None, **process):
+        run = subprocess.Popen(self.command(*options, ranks=ranks, output=output), stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True, **process)
+        self.addCleanup(run.stderr.close)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        return run
+
+    def wait_for(self, condition):
+        self.assertTrue(until(condition), "nothing happened")
+
+    def has_rows(self, n):
+        """Whether the history has so many increments or more."""
+        file = self.output / "history.csv"
+        return file.exists() and len(file.read_bytes().splitlines()) > n
 
     def checkpoints(self):
         return sorted(p.name for p in self.output.glob("checkpoint*"))

@@ -7,7 +7,7 @@ import subprocess
 import netCDF4
 import numpy
 
-from fixture import EVERY, MPIEXEC, PERIMORPH, GrowingCrack, changed
+from fixture import EVERY, GrowingCrack, changed
 
 EXPORTS = {"Crack": True, "Bonds": [2, 13], "Probes": {"ahead": {"Points": [7.25, 6.25, 12, 6.25], "Divisions": 4}}}
 
@@ -37,18 +37,6 @@ def steps_in(file):
 
 class WholeRun(GrowingCrack):
     CASE = changed(GrowingCrack.CASE, {"Output": EXPORTS})
-
-    def command(self, *options, ranks=1, output=None):
-        command = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
-        return [*command, PERIMORPH, "run", self.case, "--output", output or self.output, "--quiet", *options]
-
-    def start(self, *options, ranks=1, output=None, **process):
-        run = subprocess.Popen(self.command(*options, ranks=ranks, output=output), stdout=subprocess.DEVNULL,
-                               stderr=subprocess.PIPE, text=True, **process)
-        self.addCleanup(run.stderr.close)
-        self.addCleanup(run.wait)
-        self.addCleanup(run.kill)
-        return run
 
     def everything(self, output=None):
         """By name: all that a run leaves of its increments."""
