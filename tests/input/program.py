@@ -158,7 +158,7 @@ class Meshes(Program):
 
 class Notes(Program):
     REVERSED = MSH.replace("10 5 1 0\n", "10 5 1 0\n77 9 9 0\n").replace("$Nodes\n10", "$Nodes\n11")
-    NOTE = "plate.msh: 1 node(s) that belong to no 2D element are dropped: 77\n"
+    NOTE = "plate.msh: dropped: 1 node in no 2D element (77)\n"
 
     def test_what_reading_changed_is_told_by_check_and_run(self):
         self.write("plate.msh", self.REVERSED)
@@ -205,6 +205,13 @@ class Geometries(Program):
         run = self.perimorph("check", self.case)
         refused = "geometry         a program that gmsh runs; commands and writing files are refused (--allow-shell)\n"
         self.assertIn(refused, run.stdout, run.stderr)
+
+    def test_the_ending_may_be_in_capitals(self):
+        self.write("plate.GEO", self.PLATE)
+        self.write_case({"Mesh/File": "plate.GEO", DISPLACEMENTS: HELD, "Loading/Increments": 1})
+        run = self.run_case("--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertTrue((self.output / "plate.msh").is_file())
 
     def test_gmsh_does_not_outlive_the_program(self):
         self.write("plate.geo", f"{self.PLATE}For i In {{1:2000000000}}\n x = i;\nEndFor\n")
@@ -298,6 +305,11 @@ class Folders(Program):
         self.write("plate.e", b"precious")
         self.refused_output(".", "plate.e: the results would replace the mesh")
         self.assertEqual((self.folder / "plate.e").read_bytes(), b"precious")
+        (self.folder / "unfinished").mkdir()
+        (self.folder / "plate.e").rename(self.folder / "unfinished/plate.e")
+        self.write_case({"Mesh/File": "unfinished/plate.e", DISPLACEMENTS: HELD})
+        self.refused_output(".", "plate.e: the results would replace the mesh")
+        self.assertEqual((self.folder / "unfinished/plate.e").read_bytes(), b"precious")
         self.case = self.folder / "resolved.xml"
         self.write_case()
         before = self.case.read_text()

@@ -270,10 +270,13 @@ class ComputationErrors(Plate):
                     self.assertEqual(list(file["time_whole"][:]), [3])
                     self.assertAlmostEqual(file["vals_nod_var2"][0].max(), 0.6)
 
+                notes = self.unfinished.parent / "notes"
+                notes.write_text("of somebody else")
                 run = self.run_case("--restart", ranks=ranks)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertEqual(len(self.history()), 3)
                 self.assertFalse(self.unfinished.exists())
+                self.assertTrue(notes.exists())
 
 
 class PartedBar(Plate):

@@ -7,6 +7,7 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/sums.hpp"
 #include "perimorph/base/temporary_folder.hpp"
+#include "perimorph/base/text.hpp"
 #include "perimorph/cases/advice.hpp"
 #include "perimorph/cases/problem.hpp"
 #include "perimorph/fracture/automatic_seeds.hpp"
@@ -30,8 +31,8 @@ template <int dim>
 void describe(const base::Comm& comm, const cases::Case& input, const Problem<dim>& problem,
               const mesh::Mesh<dim>& mesh, const base::Log& log) {
   log->info("{}", input.title.empty() ? input.name : input.title);
-  log->info("mesh             {}: {} elements, {} nodes on {} rank{}", input.mesh.file, mesh.n_global_elements,
-            mesh.n_global_nodes, comm.getSize(), comm.getSize() == 1 ? "" : "s");
+  log->info("mesh             {}: {} elements, {} nodes on {}", input.mesh.file, mesh.n_global_elements,
+            mesh.n_global_nodes, base::counted(static_cast<std::size_t>(comm.getSize()), "rank"));
   log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
             problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
 }

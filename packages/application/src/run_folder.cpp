@@ -15,8 +15,9 @@ namespace {
 void check_not_overwritten(const cases::Case& input, const std::string& folder) {
   const auto is_result = [&](const std::string& file) {
     std::error_code ignored;
-    for (const std::string& name : {std::string("resolved.xml"), input.name + ".e"}) {
-      if (std::filesystem::equivalent(std::filesystem::path(folder) / name, file, ignored)) return true;
+    for (const std::string& name :
+         {folder + "/resolved.xml", folder + "/" + input.name + ".e", output::unfinished_file(folder, input.name)}) {
+      if (std::filesystem::equivalent(name, file, ignored)) return true;
     }
     return false;
   };
@@ -43,8 +44,8 @@ RunFolder::RunFolder(const Teuchos::RCP<const base::Comm>& comm, const cases::Ca
       if (rank == Rank::first) make();
       lock_.emplace(path_, rank);
       std::error_code ignored;
-      const bool is_geometry = std::filesystem::path(input_.mesh.file).extension() == ".geo";
-      if (rank == Rank::first && is_geometry) std::filesystem::create_directory(for_mesh_, ignored);  // or gmsh tells
+      const bool meshes = rank == Rank::first && mesh_files::is_geometry(input_.mesh.file);
+      if (meshes) std::filesystem::create_directory(for_mesh_, ignored);  // or gmsh tells
     });
   }
 }
@@ -72,8 +73,6 @@ void RunFolder::take_over(bool append_to_log) {
   open_log(append_to_log);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
-    std::error_code ignored;
-    std::filesystem::remove_all(output::folder_of_unfinished(path_), ignored);
     write_resolved();
     move_mesh();
   });

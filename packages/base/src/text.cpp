@@ -47,6 +47,10 @@ std::string quoted_list(const std::vector<std::string>& texts, const std::string
   return list;
 }
 
+std::string counted(std::size_t n, const std::string& what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 bool has_control_characters(const std::string& text) { return std::any_of(text.begin(), text.end(), is_control); }

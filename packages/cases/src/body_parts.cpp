@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "perimorph/base/text.hpp"
+
 namespace perimorph::cases {
 
 template <int dim>
@@ -21,16 +23,12 @@ std::string BodyParts<dim>::name(int part) const {
   if (count() == 1) return "the body";
   const auto& one = parts_[part];
   return fmt::format("part {} of {} of the body ({}, from {} to {})", part + 1, count(),
-                     counted(one.n_elements, "element"), shown<dim>(one.box.min()), shown<dim>(one.box.max()));
+                     base::counted(one.n_elements, "element"), shown<dim>(one.box.min()), shown<dim>(one.box.max()));
 }
 
 template <int dim>
 std::string shown(const base::Point<dim>& point) {
   return fmt::format("({:.6g})", fmt::join(point.begin(), point.end(), ", "));
-}
-
-std::string counted(std::size_t n, const std::string& what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 template class BodyParts<2>;

@@ -36,7 +36,4 @@ class BodyParts {
 template <int dim>
 std::string shown(const base::Point<dim>& point);
 
-/// "1 node", "2 nodes".
-std::string counted(std::size_t n, const std::string& what);
-
 }  // namespace perimorph::cases

@@ -8,6 +8,7 @@
 #include "group_checks.hpp"
 #include "part_checks.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
 #include "perimorph/cases/geometry.hpp"
 #include "perimorph/elements/locator.hpp"
 #include "place_checks.hpp"
@@ -94,9 +95,9 @@ class Checks {
     for (const auto& [pair, nodes] : nodes_of_pair) {
       const auto &a = conditions[pair.first], &b = conditions[pair.second];
       add(fmt::format("{}/{}", displacements_path, b.name),
-          fmt::format("prescribes another {} displacement than {}/{} on {} node{} that both groups have, the first at "
+          fmt::format("prescribes another {} displacement than {}/{} on {} that both groups have, the first at "
                       "({:.6g}); allowed is one value per node",
-                      "xyz"[b.component], displacements_path, a.name, nodes.size(), nodes.size() == 1 ? "" : "s",
+                      "xyz"[b.component], displacements_path, a.name, base::counted(nodes.size(), "node"),
                       fmt::join(mesh_.coordinates[nodes[0]].begin(), mesh_.coordinates[nodes[0]].end(), ", ")));
     }
   }

@@ -9,6 +9,7 @@
 
 #include "body_parts.hpp"
 #include "perimorph/base/point_tree.hpp"
+#include "perimorph/base/text.hpp"
 #include "perimorph/elements/reference_element.hpp"
 #include "perimorph/mesh/parts.hpp"
 #include "perimorph/mesh/sorted_sides.hpp"
@@ -292,7 +293,7 @@ void describe_contacts(const mesh::Mesh<dim>& mesh, const BodyParts<dim>& parts,
         "{} and {} {} at {}, the first at {}, but share none: no force passes from one to the other. Are nodes to be "
         "merged (Coherence in gmsh)?",
         parts.name(pair.first), parts.name(pair.second), contact.is_overlap ? "overlap" : "touch",
-        counted(contact.n_nodes, "node"), shown<dim>(mesh.coordinates[contact.first_node])));
+        base::counted(contact.n_nodes, "node"), shown<dim>(mesh.coordinates[contact.first_node])));
   }
 }
 
@@ -314,7 +315,7 @@ void describe_seams(const mesh::Mesh<dim>& mesh, const BodyParts<dim>& parts, st
       fmt::format("{} of nodes lie at the same place, the first at {}: the body is open there, and no force passes. Is "
                   "that a crack "
                   "of the mesh, or are nodes to be merged (Coherence in gmsh)?",
-                  counted(inside.size(), "pair"), shown<dim>(mesh.coordinates[inside[0]])));
+                  base::counted(inside.size(), "pair"), shown<dim>(mesh.coordinates[inside[0]])));
 }
 
 template <int dim>
@@ -323,7 +324,7 @@ void describe_hinges(const mesh::Mesh<dim>& mesh, std::vector<std::string>& line
   if (hinges.empty()) return;
   lines.push_back(fmt::format(
       "the body has hinges: at {}, the first at {}, elements meet that share no {}, and can turn there",
-      counted(hinges.size(), "node"), shown<dim>(mesh.coordinates[hinges[0].node]), dim == 2 ? "edge" : "face"));
+      base::counted(hinges.size(), "node"), shown<dim>(mesh.coordinates[hinges[0].node]), dim == 2 ? "edge" : "face"));
 }
 
 }  // namespace

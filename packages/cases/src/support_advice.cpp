@@ -100,13 +100,11 @@ std::vector<std::string> advice_on_supports(const Case& input, const mesh::Mesh<
   for (const auto& one : input.boundary_conditions.displacements) {
     const auto stretch = Support<dim>(input, whole, one).stretch();
     if (stretch.isEmpty() || stretch.diagonal().norm() < input.peridynamics.horizon) continue;
-    lines.push_back(
-        fmt::format("{}/{}: holds a straight side of the body across it, inside a peridynamic zone (from {} to {}). If "
-                    "it is a plane of "
-                    "symmetry, the bonds across it are missing, and a crack on it runs at a load that is a fifth too "
-                    "low: model both "
-                    "halves, or keep cracks and zones a horizon away from it",
-                    displacements_path, one.name, shown<dim>(stretch.min()), shown<dim>(stretch.max())));
+    lines.push_back(fmt::format(
+        "{}/{}: holds a straight side of the body across it, inside a peridynamic zone (from {} to {}). If it "
+        "is a plane of symmetry, the bonds across it are missing, and a crack on it runs at a load that is "
+        "a fifth too low: model both halves, or keep cracks and zones a horizon away from it",
+        displacements_path, one.name, shown<dim>(stretch.min()), shown<dim>(stretch.max())));
   }
   return lines;
 }

@@ -33,7 +33,7 @@ void Mistakes::report() {
   std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
     return a.line != command_line && (b.line == command_line || a.line < b.line);
   });
-  std::string text = fmt::format("{} mistake{} in {}", found_.size(), found_.size() == 1 ? "" : "s", file_);
+  std::string text = fmt::format("{} in {}", base::counted(found_.size(), "mistake"), file_);
   if (found_.size() == most_mistakes) {
     text = fmt::format("more than {} mistakes in {}, of which the first are", most_mistakes - 1, file_);
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/text.hpp"
 #include "perimorph/mesh/orientation.hpp"
 #include "topology.hpp"
 
@@ -35,9 +36,6 @@ std::string shown(const Point<dim>& point) {
   return fmt::format("({:.6g})", fmt::join(point.begin(), point.end(), ", "));
 }
 
-/// "1 node", "2 nodes".
-std::string counted(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
-
 template <int dim>
 std::string elements_by_kind(const Mesh<dim>& mesh) {
   std::map<ElementType, int> counts;
@@ -55,7 +53,7 @@ std::string blocks(const Mesh<dim>& mesh) {
   for (const int block : mesh.blocks) ++counts[block];
   std::string text;
   for (std::size_t b = 0; b < counts.size(); ++b) {
-    text += fmt::format("\n  block          \"{}\": {}", mesh.block_names[b], counted(counts[b], "element"));
+    text += fmt::format("\n  block          \"{}\": {}", mesh.block_names[b], base::counted(counts[b], "element"));
   }
   return text;
 }
@@ -65,8 +63,8 @@ std::string groups(const Mesh<dim>& mesh) {
   std::string text;
   for (const auto& [name, nodes] : mesh.node_sets) {
     const auto sides_of_group = mesh.side_sets.find(name);
-    text += fmt::format("\n  group          \"{}\": {}", name, counted(nodes.size(), "node"));
-    if (sides_of_group != mesh.side_sets.end()) text += ", " + counted(sides_of_group->second.size(), "side");
+    text += fmt::format("\n  group          \"{}\": {}", name, base::counted(nodes.size(), "node"));
+    if (sides_of_group != mesh.side_sets.end()) text += ", " + base::counted(sides_of_group->second.size(), "side");
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "perimorph/base/disjoint_sets.hpp"
 #include "perimorph/base/point_tree.hpp"
 #include "perimorph/mesh/shared_sides.hpp"
 #include "perimorph/mesh/sorted_sides.hpp"
@@ -11,25 +12,6 @@
 namespace perimorph::mesh {
 
 namespace {
-
-/// Numbers that are joined into sets; the lowest of each stands for it.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : lower_(n) { std::iota(lower_.begin(), lower_.end(), 0); }
-
-  int lowest(int i) {
-    while (lower_[i] != i) i = lower_[i] = lower_[lower_[i]];
-    return i;
-  }
-
-  void join(int i, int j) {
-    const int a = lowest(i), b = lowest(j);
-    lower_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> lower_;
-};
 
 /// The elements around each node of the boundary.
 template <int dim>
@@ -60,7 +42,7 @@ bool are_connected(const Mesh<dim>& mesh, int element, int other, int node) {
 /// Elements around a node, by the sides through it that connect them.
 template <int dim>
 std::vector<std::vector<int>> connected(const Mesh<dim>& mesh, const std::vector<int>& elements, int node) {
-  DisjointSets sets(elements.size());
+  base::DisjointSets sets(static_cast<int>(elements.size()));
   for (std::size_t i = 0; i < elements.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (are_connected(mesh, elements[i], elements[j], node)) sets.join(static_cast<int>(i), static_cast<int>(j));
@@ -92,7 +74,7 @@ std::vector<int> parts_of_elements(const Mesh<dim>& mesh, const std::vector<Hing
   std::vector<char> is_hinge(mesh.n_nodes(), 0);
   for (const auto& hinge : hinges) is_hinge[hinge.node] = 1;
   std::vector<int> first_at(mesh.n_nodes(), -1);  // element at each node
-  DisjointSets sets(mesh.types.size());
+  base::DisjointSets sets(mesh.n_elements());
   for (int e = 0; e < mesh.n_elements(); ++e) {
     for (int c = 0; c < mesh.n_corners(e); ++c) {
       const int node = mesh.corners_of(e)[c];

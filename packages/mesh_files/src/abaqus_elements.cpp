@@ -6,6 +6,8 @@
 #include <cctype>
 #include <map>
 
+#include "text_fields.hpp"
+
 namespace perimorph::mesh_files {
 
 namespace {
@@ -34,11 +36,6 @@ constexpr Stem stems[] = {
 constexpr const char* beginnings_without_body[] = {"T2D3", "T3D3", "B21",     "B22",    "B23",     "B31",   "B32",
                                                    "B33",  "MASS", "ROTARYI", "SPRING", "DASHPOT", "CONN",  "R2D2",
                                                    "R3D",  "RB",   "PIPE",    "ELBOW",  "GAP",     "SFM3D", "DCOUP"};
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
-  return text;
-}
 
 const std::vector<std::vector<int>>& sides_of(Shape shape) {
   static const std::map<Shape, std::vector<std::vector<int>>> all = {

@@ -1,7 +1,8 @@
 #include "exodus_types.hpp"
 
 #include <algorithm>
-#include <cctype>
+
+#include "text_fields.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -44,9 +45,7 @@ const std::vector<std::int64_t>& numbers_of_nodes(Shape shape) {
 
 /// "HEX" of "hex8".
 std::string letters_of(const std::string& type) {
-  std::string letters = type.substr(0, std::min(type.find_first_of("0123456789_- "), type.size()));
-  std::transform(letters.begin(), letters.end(), letters.begin(), [](unsigned char c) { return std::toupper(c); });
-  return letters;
+  return upper(type.substr(0, std::min(type.find_first_of("0123456789_- "), type.size())));
 }
 
 }  // namespace

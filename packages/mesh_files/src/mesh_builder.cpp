@@ -167,14 +167,14 @@ class MeshBuilder {
     }
     if (const std::size_t n = file_.n_second_order[dim]; n > 0) {
       note(
-          "{} of {} elements are of second order: they are taken by their corners, with straight edges, and {} node{} "
+          "{} of {} elements are of second order: they are taken by their corners, with straight edges, and {} "
           "between the corners are dropped",
-          n, mesh_.n_elements(), n_mid_nodes, n_mid_nodes == 1 ? "" : "s");
+          n, mesh_.n_elements(), base::counted(n_mid_nodes, "node"));
     }
     if (others.empty()) return;
     const std::size_t n_others = others.size();
     others.resize(std::min(n_others, most_listed));
-    note("{} node(s) that belong to no {}D element are dropped: {}{}", n_others, dim, fmt::join(others, ", "),
+    note("dropped: {} in no {}D element ({}{})", base::counted(n_others, "node"), dim, fmt::join(others, ", "),
          n_others > most_listed ? ", ..." : "");
   }
 

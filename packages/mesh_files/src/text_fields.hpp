@@ -6,6 +6,7 @@
 namespace perimorph::mesh_files {
 
 std::string lower(std::string text);
+std::string upper(std::string text);
 std::string trimmed(const std::string& text);  ///< without blanks at its ends
 
 /// The fields of a command, without blanks around them and without the comment after "!".

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "perimorph/base/disjoint_sets.hpp"
 #include "perimorph/base/parallel.hpp"
 
 namespace perimorph::operators {
@@ -16,24 +17,10 @@ namespace {
 
 using base::GlobalId;
 
-/// Nodes that are held together, as far as this rank sees.
-class JoinedNodes {
- public:
-  explicit JoinedNodes(int n_nodes) : parent_(n_nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  int first_of(int node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-  void join(int one, int other) { parent_[first_of(one)] = first_of(other); }
-
- private:
-  std::vector<int> parent_;
-};
-
+/// Local nodes that are held together, as far as this rank sees.
 template <int dim>
-JoinedNodes joined_nodes(const CoupledModel<dim>& model, const std::vector<bonds::BondId>& failing) {
-  JoinedNodes joined(model.dofs.n_nodes());
+base::DisjointSets joined_nodes(const CoupledModel<dim>& model, const std::vector<bonds::BondId>& failing) {
+  base::DisjointSets joined(model.dofs.n_nodes());
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     for (int k = 1; k < model.mesh.n_corners(e); ++k) joined.join(model.dofs.nodes_of(e)[k], model.dofs.nodes_of(e)[0]);
   }
@@ -49,24 +36,24 @@ template <int dim>
 std::vector<GlobalId> parts_of_nodes(const base::Comm& comm, const CoupledModel<dim>& model,
                                      const std::vector<bonds::BondId>& failing) {
   const auto& dofs = model.dofs;
-  JoinedNodes joined = joined_nodes(model, failing);
+  base::DisjointSets joined = joined_nodes(model, failing);
   std::vector<GlobalId> part(dofs.n_nodes());
   for (int n = 0; n < dofs.n_nodes(); ++n) part[n] = dofs.global_node(n);
   Tpetra::Vector<double> owned(dofs.owned_dofs()), all(dofs.all_dofs());
   for (GlobalId has_changed = 1; has_changed != 0;) {
     std::vector<GlobalId> lowest = part;
     for (int n = 0; n < dofs.n_nodes(); ++n) {
-      GlobalId& low = lowest[joined.first_of(n)];
+      GlobalId& low = lowest[joined.lowest(n)];
       low = std::min(low, part[n]);
     }
     for (int n = 0; n < dofs.n_owned_nodes(); ++n) {
-      owned.replaceLocalValue(n * dim, static_cast<double>(lowest[joined.first_of(n)]));
+      owned.replaceLocalValue(n * dim, static_cast<double>(lowest[joined.lowest(n)]));
     }
     all.doImport(owned, *dofs.import(), Tpetra::INSERT);
     const auto values = all.getLocalViewHost(Tpetra::Access::ReadOnly);
     has_changed = 0;
     for (int n = 0; n < dofs.n_nodes(); ++n) {
-      const auto now = std::min(lowest[joined.first_of(n)], static_cast<GlobalId>(values(n * dim, 0)));
+      const auto now = std::min(lowest[joined.lowest(n)], static_cast<GlobalId>(values(n * dim, 0)));
       if (now != part[n]) has_changed = 1;
       part[n] = now;
     }

@@ -43,8 +43,8 @@ std::vector<Reaction> reactions_after(const std::vector<std::string>& groups,
 
 }  // namespace
 
-std::string folder_of_unfinished(const std::string& run) {
-  return (std::filesystem::path(run) / "unfinished").string();
+std::string unfinished_file(const std::string& folder, const std::string& case_name) {
+  return (std::filesystem::path(folder) / "unfinished" / (case_name + ".e")).string();
 }
 
 template <int dim>
@@ -59,18 +59,29 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::C
       totals_(earlier ? earlier->totals : Totals{}),
       reactions_(reactions_after<dim>(input.output.reactions, earlier)),
       columns_(history_columns(reactions_)),
-      series_{(std::filesystem::path(folder) / (input.name + ".e")).string(), input.title, names_of(columns_),
-              lines_of(input.resolved), input.output.spread_files},
+      unfinished_{unfinished_file(folder, input.name), input.title, names_of(columns_), lines_of(input.resolved),
+                  input.output.spread_files},
       console_(std::move(console), profile, last_increment_, input.peridynamics.horizon,
                earlier ? earlier->seconds - earlier->seconds_before : 0.) {
-  fields_ = std::make_unique<FieldSeries<dim>>(comm, series_, earlier ? earlier->series : io::SeriesExtent{},
+  SeriesOptions series = unfinished_;
+  series.file = (std::filesystem::path(folder) / (input.name + ".e")).string();
+  fields_ = std::make_unique<FieldSeries<dim>>(comm, std::move(series), earlier ? earlier->series : io::SeriesExtent{},
                                                earlier ? earlier->fields : std::vector<io::FileExtent>{});
   base::on_all_ranks(*comm, [&] {
     if (comm_->getRank() != 0) return;
     std::vector<std::string> columns = names_of(columns_);
     columns.insert(columns.begin(), "increment");
     history_ = open_table(folder, "history.csv", columns, earlier);
+    remove_unfinished();
   });
+}
+
+/// What an earlier run has left of an increment, on rank 0.
+template <int dim>
+void Results<dim>::remove_unfinished() const {
+  io::ExodusSeries<dim>(unfinished_.file, "", {}, {}).remove_the_rest();
+  std::error_code not_empty;
+  std::filesystem::remove(std::filesystem::path(unfinished_.file).parent_path(), not_empty);
 }
 
 template <int dim>
@@ -139,15 +150,13 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
 template <int dim>
 std::string Results<dim>::write_unfinished(int increment, const Body<dim>& body) {
   const auto timer = profile_.measure(base::Phase::write);
-  const std::filesystem::path folder = folder_of_unfinished(folder_);
   base::on_all_ranks(*comm_, [&] {
+    const auto folder = std::filesystem::path(unfinished_.file).parent_path();
     std::error_code told_when_a_file_is_made;
     if (comm_->getRank() == 0) std::filesystem::create_directory(folder, told_when_a_file_is_made);
   });
-  auto series = series_;
-  series.file = (folder / std::filesystem::path(series_.file).filename()).string();
-  FieldSeries<dim>(comm_, series, {}, {}).write(body, values_of(record_of(increment, body)));
-  return series.file;
+  FieldSeries<dim>(comm_, unfinished_, {}, {}).write(body, values_of(record_of(increment, body)));
+  return unfinished_.file;
 }
 
 template <int dim>

@@ -152,7 +152,7 @@ TEST(Abaqus, InstancesAreMovedAndTurned) {
   EXPECT_THAT(mesh.node_sets.at("Both"), ElementsAre(0, 1, 7));
   EXPECT_THAT(mesh.node_sets.at("Nodes"), ElementsAre(4, 5));
   EXPECT_THAT(mesh.side_sets.at("Wall"), ElementsAre(Side{0, 1}));
-  EXPECT_THAT(notes_of(mesh, file), HasSubstr("1 node(s) that belong to no 2D element are dropped"));
+  EXPECT_THAT(notes_of(mesh, file), HasSubstr("dropped: 1 node in no 2D element"));
 }
 
 TEST(Abaqus, SetsOfTheOnlyInstanceKeepTheirNames) {

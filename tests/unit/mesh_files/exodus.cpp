@@ -117,7 +117,7 @@ TEST(Exodus, BlocksWithoutABodyArePassedOver) {
             "the block \"block_9\" is passed over: its 1 elements of type \"beam\" have no body\n"
             "the block \"block_10\" is passed over: its 1 elements of type \"TRUSS\" have no body\n"
             "the side set \"sides_2\" is left out: it has side 1 of element 4, which is none of its edges or faces\n"
-            "1 node(s) that belong to no 3D element are dropped: 13\n");
+            "dropped: 1 node in no 3D element (13)\n");
 }
 
 /// A type of plane elements, and which of their sides is the first edge.
@@ -165,7 +165,7 @@ TEST(Exodus, ElementsOfSecondOrderAreTakenByTheirCorners) {
   EXPECT_EQ(notes_of(mesh, file),
             "1 of 1 elements are of second order: they are taken by their corners, with straight edges, and 12 nodes "
             "between the corners are dropped\n"
-            "4 node(s) that belong to no 3D element are dropped: 3, 6, 9, 12\n");
+            "dropped: 4 nodes in no 3D element (3, 6, 9, 12)\n");
 }
 
 /// As libMesh writes them: the node set also has the nodes between the corners.

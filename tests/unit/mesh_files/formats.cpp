@@ -346,7 +346,7 @@ TEST(AnsysMesh, ElementsOfSecondOrderAreTakenByTheirCorners) {
   EXPECT_EQ(notes_of(mesh, file),
             "1 of 1 elements are of second order: they are taken by their corners, with straight edges, and 11 nodes "
             "between the corners are dropped\n"
-            "10 node(s) that belong to no 3D element are dropped: 12, 21, 22, 23, 24, ...\n");
+            "dropped: 10 nodes in no 3D element (12, 21, 22, 23, 24, ...)\n");
 }
 
 TEST(AnsysMesh, TheLastNodesBetweenTheCornersMayBeMissing) {

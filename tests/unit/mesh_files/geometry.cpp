@@ -220,7 +220,7 @@ TEST(Geometry, WhatMeshingAnewUndoesIsTold) {
 TEST(Geometry, TheCentreOfACircleIsDropped) {
   const std::string geo =
       written("plate.geo", replaced(unstructured_plate, "Physical Surface", "Mesh.SaveAll = 1; Physical Surface"));
-  EXPECT_EQ(said_of<2>(geo), "1 node(s) that belong to no 2D element are dropped: 7\n");
+  EXPECT_EQ(said_of<2>(geo), "dropped: 1 node in no 2D element (7)\n");
 }
 
 }  // namespace

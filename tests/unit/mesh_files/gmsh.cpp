@@ -310,7 +310,7 @@ TEST(Gmsh, NodesThatNoElementUsesAreDropped) {
   const Mesh<2> mesh = read_mesh<2>(file);
   EXPECT_THAT(mesh.corners, ElementsAre(0, 1, 4, 3, 1, 2, 5, 4));
   EXPECT_THAT(mesh.node_sets.at("left"), ElementsAre(0, 3));
-  EXPECT_EQ(notes_of(mesh, file), "2 node(s) that belong to no 2D element are dropped: 77, 78\n");
+  EXPECT_EQ(notes_of(mesh, file), "dropped: 2 nodes in no 2D element (77, 78)\n");
 }
 
 TEST(Gmsh, TheCentreOfACircleInAPhysicalGroupIsLeftOut) {
@@ -318,7 +318,7 @@ TEST(Gmsh, TheCentreOfACircleInAPhysicalGroupIsLeftOut) {
   const Mesh<2> mesh = read_mesh<2>(meshed(geo, 2, "-format msh41", "centre"));
   EXPECT_EQ(mesh.node_sets.count("centre"), 0u);
   EXPECT_THAT(mesh.notes,
-              ElementsAre(testing::HasSubstr("1 node(s) that belong to no 2D element are dropped"),
+              ElementsAre(testing::HasSubstr("dropped: 1 node in no 2D element"),
                           testing::HasSubstr("the group \"centre\" is left out: no 2D element has a node")));
 }
 

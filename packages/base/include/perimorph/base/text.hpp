@@ -12,6 +12,9 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
 /// The texts joined by a separator, each in double quotes.
 std::string quoted_list(const std::vector<std::string>& texts, const std::string& separator = ", ");
 
+/// "1 node", "2 nodes".
+std::string counted(std::size_t n, const std::string& what);
+
 /// Whether it steers a terminal; the end of a line does.
 bool is_control(char c);
 

@@ -13,8 +13,8 @@
 
 namespace perimorph::output {
 
-/// The folder within that of a run for what is left of an increment that cannot be finished.
-std::string folder_of_unfinished(const std::string& run);
+/// The first Exodus file of an increment that cannot be finished, in a folder within that of the run.
+std::string unfinished_file(const std::string& folder, const std::string& case_name);
 
 /// Everything a run leaves behind of its accepted increments: a row of history.csv, a line on the terminal, fields, and
 /// what is written on request. Rank 0 writes what it gathers from all; spread files each rank by itself.
@@ -61,12 +61,13 @@ class Results {
   Totals totals_;
   std::vector<Reaction> reactions_;
   std::vector<Column> columns_;
-  SeriesOptions series_;
+  SeriesOptions unfinished_;  ///< of an increment that cannot be finished
   Console console_;
   std::unique_ptr<io::History> history_;  ///< on rank 0
   std::unique_ptr<FieldSeries<dim>> fields_;
   std::unique_ptr<Exports<dim>> exports_;
 
+  void remove_unfinished() const;
   double seconds() const { return earlier_seconds_ + profile_.elapsed(); }
   base::GlobalId count(int increment, const discretization::Counts& counts);
   IncrementRecord record_of(int increment, const fracture::Body<dim>& body);
