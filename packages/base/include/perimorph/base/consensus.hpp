@@ -8,11 +8,11 @@
 namespace perimorph::base {
 
 /// Lets all ranks agree on how work has ended that communicates and may throw on some of them only. The others may then
-/// wait for that rank within the work, and would do so for ever.
+/// wait for that rank within the work, and would do so forever.
 class Consensus {
  public:
   /// Has a communicator of its own, so that nobody takes its messages for those of the work. Collective.
-  /// @param patience for which a rank that has failed waits for the others to end their work, [s]
+  /// @param patience how long a rank that has failed waits for the others to end their work, [s]
   explicit Consensus(const Comm& comm, double patience = 5.);
   ~Consensus();
   Consensus(const Consensus&) = delete;

@@ -44,7 +44,7 @@ struct Bug : std::logic_error {
     }                                                                                              \
   } while (false)
 
-/// The same for what would be felt: in an inner loop, or a look at every item of an argument. On in the presets debug
+/// The same where the cost would be felt: in an inner loop, or for every item of an argument. On in the presets debug
 /// and sanitize; elsewhere it is compiled and never evaluated.
 #ifdef PERIMORPH_DEBUG_ASSERTIONS
 #define PERIMORPH_DEBUG_ASSERT(...) PERIMORPH_ASSERT(__VA_ARGS__)

@@ -12,10 +12,11 @@ namespace perimorph::base {
 using Field = Teuchos::ArrayView<double>;
 using ConstField = Teuchos::ArrayView<const double>;
 
+/// A view of all of them. The vector must outlive it, and must not grow.
 inline Field field(std::vector<double>& values) { return {values.data(), static_cast<int>(values.size())}; }
 inline ConstField field(const std::vector<double>& values) { return {values.data(), static_cast<int>(values.size())}; }
 
-/// The vector that a field on nodes, (n_nodes, dim), has at one of them.
+/// The vector that a field on nodes, (n_nodes, dim), has at one of them; (dim), in the field's unit.
 template <int dim>
 Eigen::Map<const Point<dim>> at_node(const ConstField& values, int node) {
   PERIMORPH_DEBUG_ASSERT(node >= 0 && (node + 1) * dim <= values.size(), "node {} of {} values", node, values.size());

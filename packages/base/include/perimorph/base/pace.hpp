@@ -21,7 +21,7 @@ class Pace {
   bool has_steps_ = false;
 };
 
-/// For people: "40 s", "3 min", "2 h 5 min". @param seconds >= 0
+/// For people: "40 s", "3 min", "2 h 5 min". @param seconds >= 0, [s]
 std::string duration(double seconds);
 
 }  // namespace perimorph::base

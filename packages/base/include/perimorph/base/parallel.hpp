@@ -17,7 +17,7 @@ using Comm = Teuchos::Comm<int>;
 /// @throws UserError, ComputationError (MemoryError where there is none left) or Bug, the same on all ranks.
 void on_all_ranks(const Comm& comm, const std::function<void()>& local_work);
 
-/// Sum, largest and smallest value over all ranks. Collective.
+/// Sum and largest value over all ranks. Collective.
 double sum(const Comm& comm, double value);
 GlobalId sum(const Comm& comm, GlobalId value);
 double max(const Comm& comm, double value);

@@ -16,6 +16,7 @@ namespace perimorph::base {
 template <int dim>
 class PointTree {
  public:
+  /// @param points (n), any number, [length]
   explicit PointTree(std::vector<Point<dim>> points) : points_{std::move(points)}, tree_(dim, points_) {
     tree_.buildIndex();
   }

@@ -35,7 +35,7 @@ class Profile {
   };
 
   [[nodiscard]] Scope measure(Phase phase) { return Scope(*this, phase); }
-  /// One more call of a phase. @param seconds that it took, >= 0
+  /// One more call of a phase. @param seconds that it took, >= 0, [s]
   void add(Phase phase, double seconds) {
     seconds_[static_cast<int>(phase)] += seconds;
     ++calls_[static_cast<int>(phase)];

@@ -10,7 +10,7 @@
 
 namespace perimorph::base {
 
-/// A folder of this process that goes when this goes.
+/// A folder of this process' own, removed together with this object.
 class TemporaryFolder {
  public:
   /// @throws UserError if there is no place for it.

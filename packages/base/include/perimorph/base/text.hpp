@@ -15,13 +15,13 @@ std::string quoted_list(const std::vector<std::string>& texts, const std::string
 /// "1 node", "2 nodes".
 std::string counted(std::size_t n, const std::string& what);
 
-/// Whether it steers a terminal; the end of a line does.
+/// Whether a character controls the terminal; the end of a line counts as one.
 bool is_control(char c);
 
 /// Whether a name or message has such characters.
 bool has_control_characters(const std::string& text);
 
-/// The text with hexadecimal codes in place of characters that steer a terminal; ends of lines and tabs stay.
+/// The text with hexadecimal codes in place of control characters; ends of lines and tabs stay.
 std::string printable(const std::string& text);
 
 }  // namespace perimorph::base

@@ -80,6 +80,7 @@ class BondFamilies {
     PERIMORPH_DEBUG_ASSERT(b < n_bonds(), "bond {} of {}", b, n_bonds());
     return computes_stiffness() ? stiffness_on_the_fly(first_point, second_point) : stiffness_[b];
   }
+  /// The same of a bond as it is handed out, [force / length^3].
   double stiffness(const Bond<dim>& bond) const { return stiffness(bond.id, bond.first_point, bond.second_point); }
   bool computes_stiffness() const { return kept_ == StiffnessStorage::on_the_fly; }
   const materials::Micromodulus& micromodulus() const { return micromodulus_; }
@@ -92,11 +93,12 @@ class BondFamilies {
   /// The bond between two points of different elements, each told by element and number within it; n_bonds() if this
   /// rank has none. Local.
   /// @param first,second local elements, in the order of the pair: the lower global id first
+  /// @param first_end,second_end 0 ... number of the element's points - 1
   BondId find(int first, int first_end, int second, int second_end) const;
 
   /// Share of a point's bonds, by volume, that are broken (Silling and Askari 2005). For active elements.
   /// @param point local material point
-  /// @return 0 ... 1
+  /// @return 0 ... 1 [-]
   double damage(int point) const {
     PERIMORPH_DEBUG_ASSERT(point >= 0 && point < points_.size(), "point {} of {}", point, points_.size());
     return lost_volume_[point] / std::max(family_volume_[point], 1e-300);
@@ -122,7 +124,8 @@ class BondFamilies {
   std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
                                     const std::vector<morphing::ElementClass>& classes) const;
 
-  /// Their stretches, [-]; those of which this rank owns the first element, so that each comes from one rank. Local.
+  /// Their stretches, (n), [-]; those of which this rank owns the first element, so that each comes from one rank.
+  /// Arguments as there. Local.
   std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
                                     const std::vector<morphing::ElementClass>& classes) const;
 

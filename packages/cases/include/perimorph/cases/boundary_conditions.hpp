@@ -19,7 +19,7 @@ struct Traction {
 struct BoundaryConditions {
   std::vector<discretization::PrescribedComponent> displacements;
   std::vector<Traction> tractions;
-  std::vector<double> body_force_rate, body_force_constant;  ///< (dim), force per volume
+  std::vector<double> body_force_rate, body_force_constant;  ///< (dim), [force / volume]
 
   /// Whether all grow with the increment from zero.
   bool are_proportional() const;

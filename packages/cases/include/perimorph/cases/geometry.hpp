@@ -11,7 +11,7 @@
 
 namespace perimorph::cases {
 
-/// Numbers of a case as a point, from the offset on. Local.
+/// Numbers of a case as a point, from the offset on, (dim), [length]. Local.
 template <int dim>
 base::Point<dim> point(const std::vector<double>& values, std::size_t offset = 0) {
   PERIMORPH_ASSERT(offset + dim <= values.size(), "a point from number {} of {}", offset, values.size());
@@ -22,11 +22,12 @@ base::Point<dim> point(const std::vector<double>& values, std::size_t offset = 0
 template <int dim>
 morphing::Zone<dim> zone_of(const Seed& seed);
 
-/// Of all pre-cracks. Local.
+/// Of all pre-cracks, in a row. Local.
 template <int dim>
 std::vector<mesh::CrackFacet<dim>> facets_of(const std::vector<PreCrack>& cracks);
 
-/// Where a probe measures: the given points and those that divide the segments between them, in order. Local.
+/// Where a probe measures: the given points and those that divide the segments between them, in order,
+/// [length]. Local.
 template <int dim>
 std::vector<base::Point<dim>> places_of(const Probe& probe);
 

@@ -14,7 +14,7 @@ struct Material {
   double youngs_modulus = 0.;  ///< [stress]
   double poissons_ratio = 0.;  ///< [-]
   materials::ElasticModel elastic_model = materials::ElasticModel::plane_stress;
-  std::optional<double> critical_stretch, fracture_energy;  ///< at most one; none: nothing breaks
+  std::optional<double> critical_stretch, fracture_energy;  ///< [-], [energy / area]; at most one; none: nothing breaks
   model::Calibration calibration = model::Calibration::mesh_consistent;
 
   bool breaks() const { return critical_stretch || fracture_energy; }

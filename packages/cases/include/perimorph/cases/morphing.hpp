@@ -12,7 +12,7 @@ namespace perimorph::cases {
 /// A ball is a circle in 2D, a sphere in 3D; automatic ones are balls where the elastic body is stretched most.
 enum class SeedShape { ball, cylinder, box, everything, automatic };
 
-/// A first peridynamic zone: alpha = 1 inside, falling to 0 over the rim. Lengths in the mesh's unit.
+/// A first peridynamic zone: alpha = 1 inside, falling to 0 over the rim. Lengths in the mesh's unit, [length].
 struct Seed {
   std::string name;
   SeedShape shape = SeedShape::ball;

@@ -10,7 +10,8 @@ namespace perimorph::cases {
 
 enum class PreCrackShape { polyline, polygon, disc };  ///< the first in 2D, the others in 3D
 
-/// A polyline (2D), or a flat convex polygon or a disc (3D), along which there are no bonds and elements part.
+/// A polyline (2D), or a flat convex polygon or a disc (3D), along which there are no bonds and elements part,
+/// [length].
 struct PreCrack {
   std::string name;
   PreCrackShape shape = PreCrackShape::polyline;

@@ -9,7 +9,7 @@
 
 namespace perimorph::discretization {
 
-/// A value that grows with the load: rate * load factor + constant.
+/// A value that grows with the load factor [-]: rate * load factor + constant, both in the value's unit.
 template <class T>
 struct Ramp {
   T rate, constant;
@@ -26,7 +26,7 @@ struct PrescribedComponent {
 /// A node of which two conditions prescribe one component differently.
 struct Contradiction {
   int first, second;  ///< conditions, by their place in the list; the first is the first of all that prescribe it
-  int node;
+  int node;           ///< local, of the reference mesh
 };
 
 /// All contradictions, in the order of the second condition. Conditions on node sets that the mesh does not have are
@@ -35,7 +35,7 @@ template <int dim>
 std::vector<Contradiction> contradictions(const mesh::Mesh<dim>& mesh,
                                           const std::vector<PrescribedComponent>& conditions);
 
-/// Force per area, prescribed on a side set.
+/// Force per area, prescribed on a side set, (dim), [stress].
 template <int dim>
 struct SurfaceTraction {
   std::string side_set;
@@ -49,6 +49,7 @@ class Dirichlet {
   /// @throws UserError if two conditions contradict each other on a node. Collective.
   Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions);
 
+  /// @param reference_node local node of the reference mesh, here and below
   bool prescribes(int reference_node, int component) const {
     PERIMORPH_DEBUG_ASSERT(component >= 0 && component < dim, "component {}", component);
     return fixed_[reference_node * dim + component];
@@ -63,18 +64,21 @@ class Dirichlet {
   std::vector<Ramp<double>> values_;
 };
 
-/// Forces of tractions and body forces on the nodes of the current topology, consistent with the shape functions.
+/// Forces of tractions and body forces on the nodes of the current topology, consistent with the shape functions
+/// [WHL19, eq. 12, 19].
 template <int dim>
 class Loads {
  public:
+  /// @param body_force per volume, the same everywhere, (dim), [force / volume]
   Loads(std::vector<SurfaceTraction<dim>> tractions, Ramp<base::Point<dim>> body_force)
       : tractions_(std::move(tractions)), body_force_(body_force) {}
 
-  /// Force on each owned degree of freedom, (owned nodes * dim), [force]. Local.
+  /// Force on each owned degree of freedom, (n_owned_nodes * dim), [force]. Local.
+  /// @param load_factor [-]
   std::vector<double> forces(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                              const DofMap<dim>& dofs, double load_factor) const;
 
-  /// How fast they grow with the load factor, as forces(). Local.
+  /// How fast they grow with the load factor, (n_owned_nodes * dim), [force]. Local.
   std::vector<double> rates(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                             const DofMap<dim>& dofs) const;
 

@@ -29,7 +29,9 @@ class DofMap {
   using Map = Tpetra::Map<>;
   using Import = Tpetra::Import<>;
 
-  /// @param discontinuous per local element, right in the halo too. Collective. The mesh must outlive this.
+  /// Collective. The mesh must outlive this.
+  /// @param corners made by corner_exchange() of this mesh
+  /// @param discontinuous per local element, right in the halo too
   DofMap(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const HaloExchange& corners,
          const std::vector<char>& discontinuous);
 
@@ -37,7 +39,7 @@ class DofMap {
   int n_owned_nodes() const { return n_owned_nodes_; }
   base::GlobalId n_global_nodes() const { return n_global_nodes_; }
 
-  /// Local node at each corner of a local element.
+  /// Local node at each corner of a local element, (n_corners).
   const int* nodes_of(int element) const {
     PERIMORPH_DEBUG_ASSERT(element >= 0 && element < mesh_.n_elements(), "element {} of {}", element,
                            mesh_.n_elements());

@@ -10,11 +10,13 @@ namespace perimorph::discretization {
 /// Brings values of items from the ranks that own them to the ranks that hold copies. The plan is made once.
 class HaloExchange {
  public:
-  /// @param keys global id of each local item; @param owners rank that owns it. Every copy's owner holds the item.
   /// Collective.
+  /// @param keys global id of each local item, (n_items)
+  /// @param owners rank that owns it, (n_items); it holds the item itself
   HaloExchange(const base::Comm& comm, const std::vector<base::GlobalId>& keys, const std::vector<int>& owners);
 
-  /// Overwrites the values of items owned elsewhere, one value an item. Collective.
+  /// Overwrites the values of items owned elsewhere. Collective.
+  /// @param values of each local item, (n_items)
   template <class T>
   void update(std::vector<T>& values) const {
     PERIMORPH_ASSERT(values.size() == n_items_, "{} values for {} items", values.size(), n_items_);

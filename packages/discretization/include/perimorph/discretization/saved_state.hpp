@@ -19,7 +19,7 @@ struct SavedState : History<dim> {
   std::vector<double> displacement;  ///< of owned elements, (n_owned_elements, values_per_element), [length]
 };
 
-/// Local.
+/// This rank's share of a state on the topology that follows from it. Local.
 template <int dim>
 SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology);
 
@@ -28,7 +28,7 @@ SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology);
 template <int dim>
 BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology);
 
-/// The displacement on all local degrees of freedom. Local.
+/// The displacement on all local degrees of freedom of the topology, [length]. Local.
 /// @param saved has that of all local elements
 template <int dim>
 std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topology<dim>& topology);

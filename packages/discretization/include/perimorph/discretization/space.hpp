@@ -30,10 +30,12 @@ class Space {
 
   /// Completes a displacement from its values on owned nodes: copies, and what is prescribed. Collective.
   /// @param u on all local degrees of freedom, [length]
+  /// @param load_factor at which it is prescribed [-]
   void expand(base::Field u, double load_factor) const;
 
   /// A change of the displacement on all local degrees of freedom from one on owned ones: zero where prescribed. It
   /// stays valid until the next call. Collective.
+  /// @param x on owned degrees of freedom, [length]
   base::ConstField expand_change(const Vector& x) const;
 
   /// How fast prescribed displacements grow with the load factor, on all local degrees of freedom; zero where nothing
@@ -41,6 +43,7 @@ class Space {
   std::vector<double> prescribed_rates() const;
 
   /// Takes forces on nodes to forces on unknowns: none where the displacement is prescribed. Local.
+  /// @param forces on all local degrees of freedom, or on owned ones, [force]
   void restrict_forces(base::Field forces) const;
 
  private:

@@ -34,6 +34,7 @@ class Topology {
 
   /// Alpha and bonds follow the flag points, growth by growth: the order of the bonds depends on it. Returns whether
   /// anything grew; the first time it does. Local (flag points are alike on all ranks).
+  /// @param flag_points all since the beginning, those of earlier calls first
   bool grow(const std::vector<FlagPoint<dim>>& flag_points);
 
   /// What update() has changed.
@@ -49,10 +50,13 @@ class Topology {
 
   /// A displacement on the numbering before the last change of it, on the present one: nodes start where the node is
   /// that they have parted from; from none at all it is zero. Local.
+  /// @param displacement on all local degrees of freedom of old_dofs(), or empty, [length]
+  /// @return on those of dofs(), [length]
   std::vector<double> carried_over(const std::vector<double>& displacement) const;
 
-  /// Makes the centroids of owned elements that are newly damaged flag points, on all ranks, by ascending element;
-  /// returns how many. Collective.
+  /// Makes the centroids of elements that are newly damaged flag points, by ascending element [WHL19,
+  /// section 3.3, 3.4]; returns how many. Collective.
+  /// @param flag_points to which they are added, alike on all ranks
   base::GlobalId flag_damaged_elements(std::vector<FlagPoint<dim>>& flag_points);
 
   /// Takes note of flag points that come from elsewhere. Local.
@@ -67,7 +71,7 @@ class Topology {
   const elements::MaterialPoints<dim>& points() const { return points_; }
   const morphing::MorphingField<dim>& alpha() const { return alpha_; }
   const bonds::BondFamilies<dim>& bonds() const { return bonds_; }
-  const std::vector<morphing::ElementClass>& classes() const { return classes_; }
+  const std::vector<morphing::ElementClass>& classes() const { return classes_; }  ///< per element, in the halo too
   const std::vector<char>& discontinuous() const { return discontinuous_; }  ///< per element, right in the halo too
   base::GlobalId n_discontinuous() const { return n_discontinuous_; }        ///< over all ranks
   const DofMap<dim>& dofs() const {

@@ -37,7 +37,8 @@ constexpr std::pair<int, int> shear_axes(int component) {
   return {component == 3 ? 1 : 0, component == 5 ? 1 : 2};
 }
 
-/// B: strain (Voigt) = B d, with d the corner displacements node by node; (n_voigt, dim * n), [1/length].
+/// B: strain (Voigt) = B d [WHL19, eq. 8], with d the corner displacements node by node; (n_voigt, dim * n),
+/// [1/length].
 /// @param g shape function gradients, (dim, n), [1/length]
 template <int dim, int n>
 Eigen::Matrix<double, base::n_voigt<dim>, dim * n> strain_matrix(const ShapeGradients<dim>& g) {

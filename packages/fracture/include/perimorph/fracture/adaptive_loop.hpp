@@ -45,7 +45,7 @@ class LoopObserver {
 
 /// One increment of the adaptive algorithm of WHL19, Fig. 5, the one after the position's: bonds break and the
 /// peridynamic zone grows until neither happens any more. Collective.
-/// @param load_factor of the increment; a position within it has applied it already
+/// @param load_factor of the increment [-]; a position within it has applied it already
 /// @throws UnfinishedIncrement if there is no solution or a limit is passed, ComputationError if the solver fails
 template <int dim>
 LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& limits, LoopObserver<dim>& observer,

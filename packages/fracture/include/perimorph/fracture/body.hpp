@@ -36,6 +36,7 @@ class Body {
        const NumericalOptions& options, base::Profile& profile);
 
   /// Sets the load; the displacement is scaled along when the loads are proportional.
+  /// @param load_factor [-]
   void apply_load(double load_factor);
 
   /// Lets alpha, bonds, classes and DGFE follow the flag points and the damage, and renumbers; only if they changed.
@@ -51,7 +52,8 @@ class Body {
   /// returns how many.
   base::GlobalId break_bonds();
 
-  /// Makes the centroids of newly damaged elements flag points, around which alpha will grow; returns how many.
+  /// Makes the centroids of newly damaged elements flag points, around which alpha will grow [WHL19, section 3.3];
+  /// returns how many.
   base::GlobalId flag_damaged_elements();
 
   /// What this rank has to remember. Local.
@@ -68,6 +70,7 @@ class Body {
   /// After a solve: nor does it depend on the order in which forces have been summed up.
   void renew_forces();
 
+  /// Over all ranks, [energy].
   Energies energies() const;
 
   /// Where crack faces have passed furthest through each other, since there is no contact.
@@ -81,8 +84,10 @@ class Body {
   const mesh::Mesh<dim>& mesh() const { return topology_.mesh(); }
   const Counts& counts() const { return state_.counts; }
   double load_factor() const { return state_.load_factor; }
-  base::ConstField displacement() const { return base::field(state_.displacement); }  ///< all local degrees of freedom
-  /// Force that supports exert on an owned node, [force].
+  /// On all local degrees of freedom, [length].
+  base::ConstField displacement() const { return base::field(state_.displacement); }
+
+  /// Force that supports exert on an owned node, (dim), [force].
   base::Point<dim> reaction(int node) const;
 
  private:

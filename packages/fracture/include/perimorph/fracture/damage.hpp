@@ -7,11 +7,12 @@ namespace perimorph::fracture {
 /// Which bonds break: those whose stretch reached the critical one [WHL19, eq. 6, 7], or the worst of them.
 struct BreakingRule {
   double critical_stretch;  ///< infinite if nothing breaks [-]
-  double fraction = 1.;     ///< share of the overstretched bonds that break at once
+  double fraction = 1.;     ///< share of the overstretched bonds that break at once [-]
 };
 
 /// The bonds that break now. Collective.
 /// @param displacement_at_points (n_points), [length]
+/// @param classes per local element
 template <int dim>
 bonds::BondChange bonds_that_break(const base::Comm& comm, const operators::CoupledModel<dim>& model,
                                    const std::vector<base::Point<dim>>& displacement_at_points,

@@ -8,7 +8,8 @@
 namespace perimorph::fracture {
 
 /// The work of all outer forces from one solution to the next. While the load rises no bond breaks and forces change
-/// linearly; at a fixed load only prescribed forces do work. Values are on owned degrees of freedom.
+/// linearly; at a fixed load only prescribed forces do work. Displacements, [length], and forces, [force], are on owned
+/// degrees of freedom; those of a displacement may be followed by copies.
 class ExternalWork {
  public:
   /// The load has changed since the last solution.
@@ -23,6 +24,8 @@ class ExternalWork {
   }
 
   /// This rank's share up to a new solution, [energy].
+  /// @param force of supports and loads together
+  /// @param loads of the loads alone
   double up_to(base::ConstField u, const std::vector<double>& force, const std::vector<double>& loads) {
     PERIMORPH_ASSERT(force.size() == last_force_.size() && loads.size() == force.size(),
                      "{} forces, {} before, {} loads", force.size(), last_force_.size(), loads.size());

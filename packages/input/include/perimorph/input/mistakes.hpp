@@ -6,14 +6,14 @@
 
 namespace perimorph::input {
 
-/// The line of what was said on the command line, not in the file.
+/// The line number that stands for the command line.
 inline constexpr int command_line = 0;
 
 /// Where "/Section/Name" was given: of the parameter or section, or else of the innermost section around it that the
 /// file has.
 int line_of(const std::map<std::string, int>& lines, std::string path);
 
-/// Everything wrong with one case file, said in one go.
+/// Everything wrong with one case file, reported together.
 class Mistakes {
  public:
   explicit Mistakes(std::string file) : file_(std::move(file)) {}

@@ -93,7 +93,7 @@ class Section {
     pass(name, variable, example, input::required(rule), documentation);
   }
 
-  /// A parameter that need not be given; what it means that it is not, the documentation says.
+  /// A parameter that may be left out and has no default; the documentation says what that means.
   template <class T>
   void optional(const std::string& name, T& variable, const Value<T>& example, const RulePtr& rule,
                 const std::string& documentation) const {

@@ -7,8 +7,8 @@
 
 namespace perimorph::io {
 
-/// Waits until the disk has all that was written to a file, or the names of all files in a folder: a power cut does not
-/// take them any more. Local. @throws ComputationError naming it, if that fails.
+/// Waits until the disk has all that was written to a file, or the names of all files in a folder: from then on they
+/// survive a power cut. Local. @throws ComputationError naming it, if that fails.
 void bring_to_disk(const std::string& path);
 
 /// The size of a file that the run has written, [bytes]. Local. @throws ComputationError naming it, if it is gone.
@@ -23,8 +23,8 @@ struct FileExtent {
   base::GlobalId checksum = no_checksum;  ///< of these bytes, if it is known
 };
 
-/// What hinders to go on with a file at that extent, such as "is missing": "" if it has all these bytes, whatever
-/// follows them. Local.
+/// Why a run cannot continue a file from that extent, such as "is missing"; "" if the file has all these bytes,
+/// whatever follows them. Local.
 std::string trouble_with(const std::string& folder, const FileExtent& extent);
 
 }  // namespace perimorph::io

@@ -25,7 +25,8 @@ class History {
   /// @throws ComputationError naming the file, if it is not as it was written: removed, or changed by somebody else.
   void check() const;
 
-  /// Integral values are written as integers, others with 10 significant digits.
+  /// Appends a row. Integral values are written as integers, others with 10 significant digits.
+  /// @param row one value a column
   /// @throws ComputationError naming the file, if it cannot be written; Bug if the number of values is wrong.
   void write(const std::vector<double>& row);
 

@@ -7,7 +7,8 @@ namespace perimorph::materials {
 /// What the third dimension does: is free of stress, is not strained, or is computed.
 enum class ElasticModel { plane_stress, plane_strain, three_dimensional };
 
-/// The one Poisson's ratio that central pair forces can represent: 1/3 in plane stress, 1/4 in plane strain and 3D.
+/// The one Poisson's ratio that central pair forces can represent: 1/3 in plane stress, 1/4 in plane strain and 3D
+/// [-]. It makes E0 fully symmetric, as [WHL19, eq. 17] needs it.
 double bond_based_poissons_ratio(ElasticModel model);
 
 /// Isotropic linear elasticity tensor E0 in Voigt notation with engineering shear, [stress].

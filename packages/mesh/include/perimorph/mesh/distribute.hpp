@@ -7,7 +7,7 @@
 
 namespace perimorph::mesh {
 
-/// Parts a whole mesh (on rank 0; ignored elsewhere) among the ranks by Zoltan2's multijagged algorithm on element
+/// Partitions a whole mesh (on rank 0; ignored elsewhere) among the ranks by Zoltan2's multijagged algorithm on element
 /// centroids. A node belongs to the lowest rank that owns an element around it. Every rank gets its own elements, all
 /// elements around its own nodes ("active" elements), and as halo every element of which some point may lie within
 /// halo_width of an active one: |c_e - c_a| <= halo_width + R_e + R_a. Collective.

@@ -5,7 +5,7 @@
 
 #include "perimorph/mesh/mesh.hpp"
 
-// What of a body holds together. Elements do by a side that they share. Those that share only a node, or in three
+// Which elements of a body hold together. They do by a side that they share. Those that share only a node, or in three
 // dimensions an edge, can turn about it: a hinge. Those that only lie beside each other share nothing at all.
 
 namespace perimorph::mesh {

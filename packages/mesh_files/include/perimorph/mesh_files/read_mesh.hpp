@@ -16,7 +16,7 @@ namespace perimorph::mesh_files {
 /// material, "material_1"; one of nodes is also a side set of the boundary's sides between them. Abaqus: sets of
 /// sections or elements, node sets (with sides as those of ANSYS) and surfaces. Sides of a side set are those of the
 /// element with the lower id where two share it. Elements of second order are taken by their corners, reversed ones
-/// turned, those without a body, nodes of no element and groups that do not fit left out: the mesh's notes tell each.
+/// turned, those without volume, nodes of no element and groups that do not fit left out: the mesh's notes list each.
 /// @param scale factor on all coordinates, > 0, [-]: 1000 for a file in m and a case in mm
 /// @throws UserError naming file, element or group: unknown format or version; unreadable or truncated file; counts
 ///         that the file cannot hold; elements of a wrong kind (other than triangles and quadrangles in 2D, tetrahedra,
@@ -27,6 +27,7 @@ mesh::Mesh<dim> read_mesh(const std::string& file, double scale = 1.);
 /// The same, also of gmsh's geometry, .geo: it is meshed first, and the mesh kept in a folder. Messages name the
 /// geometry. Local.
 /// @param folder that exists, for the mesh of a geometry
+/// @param scale as for read_mesh() [-]
 /// @param shell whether the geometry may run commands and write files
 template <int dim>
 mesh::Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale = 1.,

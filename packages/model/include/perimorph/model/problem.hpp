@@ -26,9 +26,9 @@ enum class Calibration { analytic, mesh_consistent };
 /// What is to be computed, in the terms of the packages that compute it.
 template <int dim>
 struct Problem {
-  base::Stiffness<dim> e0;
+  base::Stiffness<dim> e0;  ///< [stress]
   materials::Micromodulus micromodulus;
-  double critical_stretch;  ///< infinite if nothing is to break
+  double critical_stretch;  ///< infinite if nothing is to break [-]
   double fracture_energy;   ///< G_c that belongs to it, [energy / area]
   std::vector<morphing::Zone<dim>> seeds;
   std::vector<mesh::CrackFacet<dim>> pre_cracks;
@@ -44,7 +44,8 @@ struct Problem {
 
 /// Each rank's part of the mesh, with a halo as the problem needs it. Collective.
 /// @param whole the mesh, on rank 0
-/// @param costs of each element of the whole mesh (on rank 0), or empty for equal ones
+/// @param costs of each element of the whole mesh (on rank 0), in any unit, or empty for equal
+///        ones
 template <int dim>
 mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
                                 const std::vector<double>& costs = {});

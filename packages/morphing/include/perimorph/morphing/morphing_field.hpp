@@ -28,12 +28,16 @@ struct Zone {
   /// @param upper the opposite one, (dim), [length]
   /// @param rim >= 0, [length]
   static Zone box(const base::Point<dim>& lower, const base::Point<dim>& upper, double rim);
-  /// Around the line from start to end, which are not the same, (dim), [length]; the ends are round.
+  /// Around a line; the ends are round.
+  /// @param start,end of the line, not the same, (dim), [length]
+  /// @param inner_radius,outer_radius as for ball(), from the line, [length]
   static Zone cylinder(const base::Point<dim>& start, const base::Point<dim>& end, double inner_radius,
                        double outer_radius);
+  /// Alpha = 1 everywhere.
   static Zone everything();
 
-  /// Alpha at a point, 0 ... 1. @param x (dim), [length]
+  /// Alpha at a point, 0 ... 1 [-] [WHL19, section 3.1].
+  /// @param x (dim), [length]
   double alpha(const base::Point<dim>& x, BlendingFunction function) const;
 
  private:
@@ -55,7 +59,7 @@ class MorphingField {
   /// @param zones the same on all ranks
   std::vector<int> add(const std::vector<Zone<dim>>& zones);
 
-  /// Alpha at a material point, 0 ... 1.
+  /// Alpha at a local material point, 0 ... 1 [-].
   double operator()(int point) const {
     PERIMORPH_DEBUG_ASSERT(point >= 0 && point < points_.size(), "point {} of {}", point, points_.size());
     return alpha_[point];

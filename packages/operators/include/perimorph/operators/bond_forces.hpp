@@ -9,10 +9,10 @@
 
 namespace perimorph::operators {
 
-/// B^T K_bonds B u without a matrix: gather displacements to the points, pull along every intact bond, spread the
-/// forces to the nodes. Four points of an element make a packet; the bonds between two packets are a mask of 16 bits
-/// and one single-precision number per bond, so that few bytes stream past per bond. If the bonds compute their
-/// stiffness on the fly, the mask is all: a tenth of the bytes for twice the arithmetic.
+/// B^T K_bonds B u, the double sum in K [WHL19, eq. 22], without a matrix: gather displacements to the points, pull
+/// along every intact bond, spread the forces to the nodes. Four points of an element make a packet; the bonds between
+/// two packets are a mask of 16 bits and one single-precision number per bond, so that few bytes stream past per bond.
+/// If the bonds compute their stiffness on the fly, the mask is all: a tenth of the bytes for twice the arithmetic.
 template <int dim>
 class BondForces : public LinearTerm<dim> {
  public:

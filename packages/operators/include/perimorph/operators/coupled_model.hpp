@@ -23,7 +23,7 @@ struct CoupledModel {
   }
 };
 
-/// The law of an intact bond: a spring along xi, stretched by eta = u(p) - u(x).
+/// The law of an intact bond [WHL19, eq. 14, 15]: a spring along xi, stretched by eta = u(p) - u(x).
 template <int dim>
 struct BondSpring {
   double stiffness;     ///< k, [force / length^3]
@@ -36,8 +36,11 @@ struct BondSpring {
         xi(bond.xi),
         elongation(bond.xi.dot(u[bond.second_point] - u[bond.first_point])) {}
 
-  base::Point<dim> pull() const { return stiffness * elongation * xi; }        ///< on its first point, [force]
-  double energy() const { return 0.5 * stiffness * elongation * elongation; }  ///< [energy]
+  /// The force on its first point, (dim), [force]; on the second the opposite.
+  base::Point<dim> pull() const { return stiffness * elongation * xi; }
+
+  /// Of both its points' shares [WHL19, eq. 21], [energy].
+  double energy() const { return 0.5 * stiffness * elongation * elongation; }
 };
 
 }  // namespace perimorph::operators

@@ -32,6 +32,7 @@ template <int dim>
 class CoupledSystem : public NonlinearSystem {
  public:
   /// The arguments must outlive this. It has no terms before the first assemble().
+  /// @param e0 the material's elasticity, without bonds, [stress]
   CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
                 const discretization::Dirichlet<dim>& dirichlet, const discretization::Loads<dim>& loads,
                 const base::Stiffness<dim>& e0, SystemOptions options, base::Profile& profile);
@@ -50,11 +51,11 @@ class CoupledSystem : public NonlinearSystem {
   /// Makes terms and matrices of the present topology. Collective.
   PreconditionerSource assemble();
 
-  /// The tangent with all bonds that hold now, in the basis of the preconditioner's matrix. It does not hear of later
+  /// The tangent with all bonds that hold now, in the basis of the preconditioner's matrix. It does not follow later
   /// changes. Collective.
   Teuchos::RCP<Tpetra::CrsMatrix<double>> whole_matrix() const;
 
-  /// From now on this load factor holds. Local.
+  /// From now on this load factor holds, [-]. Local.
   void apply_load(double load_factor);
 
   /// Bonds have broken: terms and matrices take them out, and so do the forces, if there are any. Returns the owned
@@ -75,11 +76,16 @@ class CoupledSystem : public NonlinearSystem {
   const discretization::Space<dim>& space() const { return *space_; }
   bool has_forces() const { return has_forces_; }  ///< of the present load and topology
   void forget_forces() { has_forces_ = false; }
-  const std::vector<double>& internal_force() const { return internal_; }  ///< on owned degrees of freedom, [force]
-  const std::vector<double>& loads() const { return loads_; }              ///< the same
-  const std::vector<base::Point<dim>>& displacement_at_points() const { return at_points_; }  ///< [length]
-  const ForceTerms<dim>& terms() const { return terms_; }                                     ///< of the internal force
-  std::size_t bytes_of_operator() const;  ///< of memory, in the form that conjugate gradients apply
+  /// On owned degrees of freedom, [force].
+  const std::vector<double>& internal_force() const { return internal_; }
+
+  /// The forces that the loads exert, on owned degrees of freedom, [force].
+  const std::vector<double>& loads() const { return loads_; }
+
+  /// At the last evaluation, (n_points), [length].
+  const std::vector<base::Point<dim>>& displacement_at_points() const { return at_points_; }
+  const ForceTerms<dim>& terms() const { return terms_; }  ///< of the internal force
+  std::size_t bytes_of_operator() const;                   ///< of memory, in the form that conjugate gradients apply
 
  private:
   const base::Comm& comm_;

@@ -22,11 +22,12 @@ std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>& mesh, const std::ve
 template <int dim>
 struct Overlap {
   double depth = 0.;                                  ///< along the normal, [length]; 0 where none do
-  base::Point<dim> place = base::Point<dim>::Zero();  ///< in the reference mesh
+  base::Point<dim> place = base::Point<dim>::Zero();  ///< in the reference mesh, (dim), [length]
 };
 
-/// The largest one on this rank: -[u] . n at the corners of sides whose elements no unbroken bond joins, with the
+/// The largest one on this rank: -(u2 - u1) . n at the corners of sides whose elements no unbroken bond joins, with the
 /// normal n of the reference mesh, as strains are small. Local.
+/// @param facing what facing_sides() returned for the present topology
 /// @param u on all local degrees of freedom (copies too), [length]
 template <int dim>
 Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing,

@@ -7,19 +7,21 @@
 
 namespace perimorph::operators {
 
-/// Displacement at every point of the elements that have bonds (zero elsewhere): B u.
+/// Displacement at every point of the elements that have bonds (zero elsewhere): B u, (n_points), [length]. Local.
 /// @param u on all local degrees of freedom (copies too), [length]
 template <int dim>
 std::vector<base::Point<dim>> displacements_at_points(const CoupledModel<dim>& model, base::ConstField u);
 
-/// Element averages for output, one entry per owned element.
+/// Element averages for output, (n_owned_elements); sources: [WHL19, eq. 13, 20, 21].
 template <int dim>
 struct ElementFields {
   std::vector<double> energy;            ///< strain energy in the element: local + half of each of its bonds', [energy]
   std::vector<base::Voigt<dim>> stress;  ///< E(x) eps + 1/2 Sum k (xi . eta) xi (x) xi / w, [stress]
 };
 
-/// @param u on all local degrees of freedom; @param at_points B u (displacements_at_points). Local.
+/// Energy and stress of all owned elements. Local.
+/// @param u on all local degrees of freedom, [length]
+/// @param at_points B u (displacements_at_points), (n_points), [length]
 template <int dim>
 ElementFields<dim> element_fields(const CoupledModel<dim>& model, base::ConstField u,
                                   const std::vector<base::Point<dim>>& at_points);
@@ -32,6 +34,8 @@ std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, i
 
 /// The largest eigenvalue of the strain at any material point of an element [-]: the largest stretch of a bond, were
 /// the strain around it uniform. Local.
+/// @param element local index
+/// @param u on all local degrees of freedom, [length]
 template <int dim>
 double largest_principal_strain(const CoupledModel<dim>& model, int element, base::ConstField u);
 

@@ -16,7 +16,8 @@ struct Couplings;
 
 /// A term of the balance of forces. It adds the forces that it takes to hold the nodes against it, as the internal
 /// force K u does; what loads the body adds them with the other sign. Fields are on all local degrees of freedom, and
-/// sums are right on owned ones. All functions are local.
+/// sums are right on owned ones; displacements are in [length], forces in [force], the load factor is a number [-]. All
+/// functions are local.
 template <int dim>
 class ForceTerm {
  public:
@@ -26,13 +27,12 @@ class ForceTerm {
   virtual void apply_load(double /*load_factor*/) {}
 
   /// force += F(u).
-  /// @param u displacement, [length]; @param force [force]
   virtual void add_force(base::ConstField u, base::Field force) const = 0;
 
-  /// Makes the tangent that of a displacement. A linear term's is always the same.
+  /// Makes the tangent dF/du that of a displacement. A linear term's is always the same.
   virtual void prepare_tangent(base::ConstField /*u*/) {}
 
-  /// force += (dF/du) x, with the tangent as prepared.
+  /// force += (dF/du) x, with the tangent as prepared and x a change of the displacement.
   virtual void add_tangent_product(base::ConstField x, base::Field force) const = 0;
 
   /// force += dF / d load factor.

@@ -5,7 +5,8 @@
 
 namespace perimorph::operators {
 
-/// Tractions and body forces as a term: dead loads, which do not follow the displacement and have no tangent.
+/// Tractions and body forces as a term, the last two integrals of [WHL19, eq. 19]: dead loads, which do not follow the
+/// displacement and have no tangent.
 template <int dim>
 class LoadForces : public ForceTerm<dim> {
  public:

@@ -7,8 +7,9 @@
 
 namespace perimorph::operators {
 
-/// K_local u without a matrix: the forces of E(x), element by element. What it stores per element is the gradients of
-/// the shape functions, sqrt(w) dN/dx, which is less than an element matrix; four elements are computed at once.
+/// K_local u, the single sum in K [WHL19, eq. 22], without a matrix: the forces of E(x), element by element. What it
+/// stores per element is the gradients of the shape functions, sqrt(w) dN/dx, which is less than an element matrix;
+/// four elements are computed at once.
 template <int dim>
 class LocalForces : public LinearTerm<dim> {
  public:

@@ -17,13 +17,14 @@ class MatrixFreeTangent : public Tpetra::Operator<double> {
   using Map = Tpetra::Map<>;
 
   /// Local. The space must outlive this.
-  /// @param constraints stiffness on the diagonal where displacements are prescribed, per owned degree of freedom
+  /// @param constraints stiffness on the diagonal where displacements are prescribed, per owned degree of freedom,
+  ///        [force / length]; 0 elsewhere
   MatrixFreeTangent(const discretization::Space<dim>& space, ForceTerms<dim> terms, std::vector<double> constraints);
 
   Teuchos::RCP<const Map> getDomainMap() const override { return space_.dofs().owned_dofs(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return space_.dofs().owned_dofs(); }
 
-  /// y = beta y + alpha K x. Collective. K is symmetric: the mode makes no difference.
+  /// y = beta y + alpha K x, on owned degrees of freedom. Collective. K is symmetric: the mode makes no difference.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS, double alpha = 1.,
              double beta = 0.) const override;
 

@@ -18,15 +18,17 @@ enum class PeridynamicStiffness { dropped, kept };
 template <int dim>
 class MorphedStiffness {
  public:
+  /// @param e0 E0, [stress]
   MorphedStiffness(const base::Stiffness<dim>& e0, PeridynamicStiffness policy) : e0_(e0), policy_(policy) {}
 
   /// Recomputes the elements that are touched; needed after alpha or the bonds have grown, or elements were split.
   /// Mesh, points and bonds are always the same ones. Right for active elements. Local.
+  /// @param classes,discontinuous per local element, right in the halo too
   void update(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
               const bonds::BondFamilies<dim>& bonds, const morphing::MorphingField<dim>& alpha,
               const std::vector<morphing::ElementClass>& classes, const std::vector<char>& discontinuous);
 
-  /// E at a point, [stress].
+  /// E at the q-th point of a local element, [stress].
   const base::Stiffness<dim>& at(int element, int q) const {
     PERIMORPH_DEBUG_ASSERT(element >= 0 && element < static_cast<int>(first_.size()), "element {} of {}", element,
                            first_.size());

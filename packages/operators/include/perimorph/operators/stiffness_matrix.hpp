@@ -12,7 +12,9 @@
 namespace perimorph::operators {
 
 /// The bonds up to a length, stiffened so that Sum k |xi|^4, and with it the stiffness against smooth strains, is that
-/// of all bonds. Their matrix has far fewer entries and is nearly as good to build a preconditioner from. Collective.
+/// of all bonds. Their matrix has far fewer entries and is nearly as good to build a preconditioner from (DECISIONS.md,
+/// 10). Collective.
+/// @param reach the length, > 0, [length]
 template <int dim>
 BondSelection short_range(const CoupledModel<dim>& model, const base::Comm& comm, double reach);
 
@@ -24,6 +26,7 @@ struct Couplings {
   std::vector<std::vector<int>> elements;  ///< per element: others
   std::vector<std::vector<int>> nodes;     ///< per owned node: others
 
+  /// @param first,second local elements
   void add_elements(int first, int second);
   void add_nodes(const Nodes& first, const Nodes& second);
 };
@@ -37,7 +40,8 @@ class StiffnessMatrix {
   using Block = Eigen::Matrix<double, dim, dim>;
 
   /// Collective. Model, space and terms are read again later; the first two must outlive this.
-  /// @param constraints stiffness on the diagonal where displacements are prescribed, per owned degree of freedom
+  /// @param constraints stiffness on the diagonal where displacements are prescribed, per owned degree of freedom,
+  ///        [force / length]; 0 elsewhere
   /// @param basis of the unknowns where they are not nodal displacements; what is on the diagonal is not transformed
   StiffnessMatrix(const CoupledModel<dim>& model, const discretization::Space<dim>& space, ForceTerms<dim> terms,
                   const std::vector<double>& constraints, const BondSelection& selection = all_bonds,
@@ -54,19 +58,21 @@ class StiffnessMatrix {
   // For terms; local.
 
   const BondSelection& selection() const { return selection_; }
+  /// @param xi of a bond, [length]
   bool selects(const base::Point<dim>& xi) const { return xi.norm() <= selection_.reach; }
   bool is_by_points(int element) const { return !basis_.is_null() && basis_->holds(element); }
   /// The nodes whose unknowns move an element's q-th point.
   typename Couplings<dim>::Nodes nodes_at(int element, int q) const;
   void append_owned_nodes(int element, std::vector<int>& nodes) const;
 
-  /// Adds an element's matrix, (n_corners * dim, n_corners * dim).
+  /// Adds an element's matrix, (n_corners * dim, n_corners * dim), [force / length].
   void add_element(int element, const Eigen::Ref<const Eigen::MatrixXd>& k);
-  /// Adds the springs at an element's points, (n_points) blocks: K += N^T diag(at_points) N.
+  /// Adds the springs at an element's points, (n_points) blocks, [force / length]: K += N^T diag(at_points) N.
   void add_at_points(int element, const Block* at_points);
-  /// Subtracts the springs between the points of two elements, (n_points, n_points) blocks: K -= N_a^T between N_b, and
-  /// its transpose.
+  /// Subtracts the springs between the points of two elements: K -= N_a^T between N_b, and its transpose.
+  /// @param between (n_points of the first, n_points of the second) blocks, row by row, [force / length]
   void add_between(const bonds::ElementPair& pair, const std::vector<Block>& between);
+  /// @param stiffness [force / length]
   void add_diagonal(int owned_dof, double stiffness);
 
  private:

@@ -19,6 +19,7 @@ struct Supports {
   std::vector<double> anchors;      ///< where it is not, in discontinuous elements
 
   /// Local.
+  /// @param discontinuous per local element, right in the halo too
   Supports(const CoupledModel<dim>& model, const discretization::Space<dim>& space,
            const std::vector<char>& discontinuous);
 };
@@ -37,6 +38,7 @@ class Anchors : public ForceTerm<dim> {
   std::size_t bytes() const override { return springs_.size() * sizeof(Spring); }
 
   /// Loosens or tightens them; a matrix keeps those that it has.
+  /// @param factor on their stiffness, > 0 [-]
   void scale(double factor);
 
  private:

@@ -25,6 +25,7 @@ struct Totals {
 class Console {
  public:
   /// @param profile must outlive this
+  /// @param horizon against which overlaps of crack faces are judged, [length]
   /// @param elapsed what the profile showed when the last increment was accepted, [s]
   Console(ConsoleOptions options, const base::Profile& profile, int last_increment, double horizon, double elapsed);
 

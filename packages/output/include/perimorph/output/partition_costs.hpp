@@ -6,8 +6,8 @@
 
 namespace perimorph::output {
 
-/// What each element of the whole mesh will cost, before there are bonds: by how many it is likely to have. The mesh is
-/// whole on rank 0, elsewhere the result is empty. Local.
+/// What each element of the whole mesh will cost, before there are bonds: by how many it is likely to have, in
+/// classical elements [-]. The mesh is whole on rank 0, elsewhere the result is empty. Local.
 template <int dim>
 std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const model::Problem<dim>& problem,
                                    discretization::DiscontinuousElements discontinuous);

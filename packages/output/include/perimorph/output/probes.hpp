@@ -26,7 +26,7 @@ class Probes {
   /// Collective.
   Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<cases::Probe>& probes);
 
-  /// A probe's name, the number of the place in it from 1, and the place.
+  /// A probe's name, the number of the place in it from 1, and the place, [length].
   struct Place {
     std::string probe;
     int number;

@@ -19,10 +19,12 @@ struct Reaction {
 };
 
 /// Those of each group in each direction, not yet measured. Local.
+/// @param groups node sets of the mesh
 template <int dim>
 std::vector<Reaction> reactions_of(const std::vector<std::string>& groups);
 
 /// Measures all of them in an increment that has been accepted. Collective.
+/// @param reactions the same groups on all ranks, (n); force, displacement and peak are brought up to date
 template <int dim>
 void measure(const base::Comm& comm, int increment, const fracture::Body<dim>& body, std::vector<Reaction>& reactions);
 

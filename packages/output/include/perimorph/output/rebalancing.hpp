@@ -5,12 +5,12 @@
 
 namespace perimorph::output {
 
-/// Whether the mesh is to be partitioned anew among the ranks, and by which costs of its elements.
+/// Whether the mesh is to be repartitioned among the ranks, and by which costs of its elements.
 template <int dim>
 class Rebalancing {
  public:
-  /// @param largest_imbalance of the work that is put up with: the largest of a rank over the mean of ranks [-]
-  /// @param element_costs by which the mesh is partitioned first, by global id; on rank 0
+  /// @param largest_imbalance of the work that is tolerated: the largest of a rank over the mean of ranks [-]
+  /// @param element_costs by which the mesh is partitioned first, by global id, in any unit; on rank 0
   Rebalancing(const Teuchos::RCP<const base::Comm>& comm, double largest_imbalance, std::vector<double> element_costs,
               base::Log log);
 

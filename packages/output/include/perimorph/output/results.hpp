@@ -21,7 +21,7 @@ std::string unfinished_file(const std::string& folder, const std::string& case_n
 template <int dim>
 class Results {
  public:
-  /// Goes on with the results of an earlier run, if there is one; what is left of others gives way. Collective.
+  /// Goes on with the results of an earlier run, if there is one; what is left of other runs is removed. Collective.
   /// @param profile must outlive this
   /// @throws UserError if the folder cannot be written, or the earlier results are not there.
   Results(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,

@@ -33,7 +33,7 @@ class Equilibrium {
     std::string trouble;  ///< why it did not
   };
 
-  /// Corrects u until the residual is at most the tolerance times the reactions. Collective.
+  /// Corrects u until the residual is at most the tolerance times the reactions (DECISIONS.md, 34). Collective.
   /// @param system evaluated at u
   /// @param u on all local degrees of freedom, [length]
   Outcome find(operators::NonlinearSystem& system, base::Field u, const BalanceTarget& target);

@@ -52,6 +52,9 @@ class LinearSolver {
   /// If the iteration breaks down or does not converge, on whatever rank, it is tried again with a rebuilt, robust
   /// preconditioner, and then with the last one: a factorization of the whole matrix as it is now, or a single level
   /// where that would take too much memory.
+  /// @param right_hand_side b on the unknowns, [force]
+  /// @param solution becomes x, [length]
+  /// @param target >= 0, [force]
   /// @throws MemoryError on all ranks if one has no memory left.
   Outcome solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 

@@ -18,10 +18,12 @@ class SinglePrecisionCycle;
 struct CycleLevel;
 
 /// Rigid-body modes of the owned degrees of freedom: dim translations and the rotations (3 modes in 2D, 6 in 3D), and
-/// the nodes' coordinates, as MueLu wants them. @param coordinates of the owned nodes, [length]
+/// the nodes' coordinates, as MueLu wants them.
 struct NearNullSpace {
   Teuchos::RCP<MultiVector> modes, coordinates;
 };
+/// Those of a matrix whose unknowns are displacements of nodes, or of what stands for nodes. Local.
+/// @param coordinates of the owned nodes, (n_owned_nodes), [length]
 template <int dim>
 NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Point<dim>>& coordinates);
 
