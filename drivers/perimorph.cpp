@@ -42,7 +42,7 @@ struct Arguments {
 /// Every rank reads it; a mistake in it is an error on all ranks.
 cases::Case read_case(const base::Comm& comm, const Arguments& arguments) {
   cases::Case input;
-  for (const bool is_first : {true, false}) {  // it tells the mistakes, and to find them may take reading the mesh
+  for (const bool is_first : {true, false}) {  // it reports the mistakes, for which it may have to read the mesh
     base::on_all_ranks(comm, [&] {
       if (is_first != (comm.getRank() == 0)) return;
       input = cases::read_case(arguments.case_file, arguments.overrides, arguments.shell());
@@ -117,8 +117,8 @@ int main(int argc, char** argv) {
   add_case_options(*run, arguments);
   run->add_option("--output", arguments.output, "Folder for the results (default: results/<case>)")->check(check_name);
   run->add_flag("--no-progress", arguments.no_progress, "No progress bar, even on a terminal");
-  run->add_flag("--restart", arguments.restart, "Go on after the newest checkpoint in the folder for the results");
-  auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what it would cost");
+  run->add_flag("--restart", arguments.restart, "Continue after the newest checkpoint in the folder of the results");
+  auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what a run would cost");
   add_case_options(*check, arguments);
   auto* params = app.add_subcommand("params", "Print every parameter with default, range, unit and meaning");
   auto* as_page = params->add_flag("--markdown", arguments.markdown, "As a Markdown page");

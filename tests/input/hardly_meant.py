@@ -1,4 +1,4 @@
-"""What a case or its mesh says that has no effect, or one that nobody can want: told by `check` and by `run`.
+"""What a case or its mesh says that has no effect, or one that nobody can want: `check` and `run` say so.
 
     hardly_meant.py PERIMORPH MPIEXEC
 """

@@ -26,7 +26,7 @@ struct Outcome {
   double elastic, dissipated;
 };
 
-/// Broken bonds of all ranks, each told by the rank that owns its first element; on rank 0.
+/// Broken bonds of all ranks, each from the rank that owns its first element; on rank 0.
 template <int dim>
 std::vector<Ends> broken_bonds(const base::Comm& comm, const fracture::Body<dim>& body) {
   const auto model = body.model();

@@ -1,4 +1,4 @@
-"""One rank has no memory left, at many places in turn: the run ends in order and says so, and no rank waits for ever.
+"""One rank has no memory left, at many places in turn: the run ends in order and says so, and no rank waits forever.
 
     no_memory.py PERIMORPH MPIEXEC LIBRARY
 

@@ -127,10 +127,10 @@ class Ranks(Exports):
     def test_one_two_and_four_write_the_same(self):
         self.run_until(INCREMENTS)
         probes, crack, path, bonds = self.numbers("probes.csv"), *map(self.table, TABLES[1:]), self.bonds(16)
-        for ranks, options in [(2, []), (4, []), (2, ["--set", "Solver/Largest Imbalance=1"])]:  # parted anew on its way
+        for ranks, options in [(2, []), (4, []), (2, ["--set", "Solver/Largest Imbalance=1"])]:  # repartitioned on its way
             with self.subTest(ranks=ranks, options=options):
                 self.run_until(INCREMENTS, *options, ranks=ranks)
-                self.assertEqual("partition        anew" in (self.output / "run.log").read_text(), bool(options))
+                self.assertEqual("repartitioned " in (self.output / "run.log").read_text(), bool(options))
                 for row, other in zip(probes, self.numbers("probes.csv"), strict=True):
                     for name in row:  # displacements are up to 0.8, stresses up to 50; the tolerance is 1e-6 of the reactions
                         if name == "probe":

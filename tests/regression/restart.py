@@ -51,22 +51,22 @@ class Continued(GrowingCrack):
                     numpy.testing.assert_allclose(ours, theirs, atol=1e-5)  # displacements are up to 0.8
 
     def test_a_run_that_is_parted_anew_on_its_way_breaks_the_same_bonds_and_can_be_continued(self):
-        anew = [*EVERY, "--set", "Solver/Largest Imbalance=1"]
+        repartitioned = [*EVERY, "--set", "Solver/Largest Imbalance=1"]
         for ranks in [2, 4]:
             with self.subTest(ranks=ranks):
                 self.run_until(INCREMENTS, *EVERY, "--set", "Solver/Largest Imbalance=1000", ranks=ranks)
                 once = self.rows()
-                self.run_until(INCREMENTS, *anew, ranks=ranks)
+                self.run_until(INCREMENTS, *repartitioned, ranks=ranks)
                 log, whole = (self.output / "run.log").read_text(), self.outcome()
-                self.assertIn("partition        anew", log)
+                self.assertIn("repartitioned ", log)
                 for row, other in zip(once, whole[0], strict=True):
                     for name in ["increment", "broken_bonds", "damaged_elements", "dgfe_elements", "unknowns"]:
                         self.assertEqual(row[name], other[name])
                     self.assertAlmostEqual(float(row["reaction_upper_y"]) / float(other["reaction_upper_y"]), 1, places=5)
 
                 for stop in [12, 14]:
-                    self.run_until(stop, *anew, ranks=ranks)
-                    self.run_until(INCREMENTS, *anew, "--restart", ranks=ranks)
+                    self.run_until(stop, *repartitioned, ranks=ranks)
+                    self.run_until(INCREMENTS, *repartitioned, "--restart", ranks=ranks)
                     self.assert_same(self.outcome(), whole)
 
     def test_a_run_that_is_done_can_go_further(self):

@@ -1,4 +1,4 @@
-"""tools/new-case: every template makes a case that passes perimorph check, and mistakes are told.
+"""tools/new-case: every template makes a case that passes perimorph check, and mistakes are reported.
 
     new_case.py PERIMORPH MPIEXEC RUNS
 """
@@ -42,7 +42,7 @@ class NewCase(InFolder):
                     self.assertNotIn("advice", check.stdout + check.stderr)
 
     def test_every_template_makes_a_case_that_runs_to_its_end_as_it_is(self):
-        """What its README tells of the first break is what happens."""
+        """What its README says of the first break is what happens."""
         for template in TEMPLATES:
             with self.subTest(template):
                 case = self.folder / template

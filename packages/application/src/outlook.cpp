@@ -91,7 +91,7 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
   if (std::isinf(problem.critical_stretch) || input.morphing.seeds.empty()) return;
   log->info("strength         E s_crit = {:.4g}: about the stress that breaks the material where there is no crack",
             input.material.youngs_modulus * problem.critical_stretch);
-  if (!problem.is_proportional) return;  // one solution does not tell others
+  if (!problem.is_proportional) return;  // one solution says nothing of others
   const double last = input.loading.increments;
   body.apply_load(last);
   try {

@@ -31,7 +31,7 @@ template <int dim>
 void check_that_bonds_can_break(const base::Comm& comm, const cases::Case& input, const model::Problem<dim>& problem,
                                 const fracture::Body<dim>& body);
 
-/// Tells strength and first break, by one elastic solution; nothing if nothing can break. Collective.
+/// Reports strength and first break, by one elastic solution; nothing if nothing can break. Collective.
 /// @param body with its first topology, nothing solved yet
 template <int dim>
 void describe_first_break(const base::Comm& comm, const cases::Case& input, const model::Problem<dim>& problem,

@@ -178,8 +178,8 @@ class Run {
     return {loading.increments, loading.max_damage_iterations, loading.max_zone_growths};
   }
 
-  /// The first time, what an earlier run has left gives way: its checkpoints before its results if this run begins
-  /// anew, so that none counts on results that are gone, and otherwise those after which this run does not go on.
+  /// The first time, removes what an earlier run has left: its checkpoints before its results if this run starts over,
+  /// so that none counts on results that are gone, and otherwise those after which this run does not go on.
   std::unique_ptr<output::Results<dim>> open_results(const mesh::Mesh<dim>& mesh) {
     const auto& earlier = checkpoints_.results();
     if (!has_taken_over_ && !earlier) checkpoints_.remove_later();

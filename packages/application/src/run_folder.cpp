@@ -45,7 +45,7 @@ RunFolder::RunFolder(const Teuchos::RCP<const base::Comm>& comm, const cases::Ca
       lock_.emplace(path_, rank);
       std::error_code ignored;
       const bool meshes = rank == Rank::first && mesh_files::is_geometry(input_.mesh.file);
-      if (meshes) std::filesystem::create_directory(for_mesh_, ignored);  // or gmsh tells
+      if (meshes) std::filesystem::create_directory(for_mesh_, ignored);  // or gmsh says so
     });
   }
 }

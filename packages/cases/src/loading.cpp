@@ -15,7 +15,7 @@ void declare(const input::Section& section, Loading& loading, model::NumericalOp
   section.parameter("Breaking Fraction", numerical.breaking_fraction, share(),
                     "Which share of the bonds past the critical stretch breaks before the body is solved for again, "
                     "the worst first [-]. 1 breaks all of them, as WHL19 does. With less, bonds that the others would "
-                    "relieve are spared; an unstable crack takes so many more solutions.");
+                    "relieve are spared; an unstable crack takes as many times more solutions.");
   changeable.parameter("Maximum Zone Growths", loading.max_zone_growths, count(),
                        "Growths of the peridynamic zone within one increment, after which the run ends with status 3.");
 }

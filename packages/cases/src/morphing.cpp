@@ -48,7 +48,7 @@ void declare_seed(const input::Section& section, Seed& seed) {
                  "(three) the ends of its axis and the two radii, \"Box\" the corners and the rim, \"Everything\" "
                  "nothing. \"Automatic\" needs nothing, and takes the radii and the share: circles or spheres are put "
                  "where the elastic body is stretched most (largest principal strain at the last increment's load) "
-                 "[WHL19, section 3.1]; the log tells where.");
+                 "[WHL19, section 3.1]; the log says where.");
   section.optional("Center", seed.center, {0., 0.}, point, "Of a circle or sphere: x_0 [length].");
   section.optional("Start", seed.start, {0., 0., 0.}, point_in_3d,
                    "Of a cylinder: one end of its axis [length]. Radii count from the axis, so that the ends are "

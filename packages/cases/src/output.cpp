@@ -50,25 +50,26 @@ void check_reactions(const input::Values& output) {
 void declare(const input::Section& section, Output& output) {
   using namespace input;
   const Section changeable = section.changeable();
-  changeable.parameter("Every", output.every, count(),
-                       "Fields are written every so many increments; those with a break and the last one are written "
-                       "anyway. 1 shows everything and may fill the disk in large runs.");
+  changeable.parameter(
+      "Every", output.every, count(),
+      "Increments from one output of the fields to the next; increments in which bonds break, and the last "
+      "one, are written anyway. 1 shows everything and may fill the disk in large runs.");
   changeable.parameter("Spread Files", output.spread_files, flag(),
                        "Whether each process writes the fields of its own elements, to case.e.N.0 up to case.e.N.<N-1> "
                        "on N processes, instead of one that gathers and writes all. For bodies that do not fit into "
                        "the memory of one; tools/join makes one file of them.");
-  changeable.parameter("Checkpoint Every", output.checkpoint_every, whole_number(),
-                       "A checkpoint is written every so many increments; 0 is never. The run goes on from each of "
-                       "them as one that is continued with --restart: on the same number of processes with the same "
-                       "bits. It takes a second per million elements and a set-up of the preconditioner.");
+  changeable.parameter(
+      "Checkpoint Every", output.checkpoint_every, whole_number(),
+      "Increments from one checkpoint to the next; 0 is never. The run goes on from each of them as one that "
+      "is continued with --restart: on the same number of processes with the same bits. It takes a "
+      "second per million elements and a set-up of the preconditioner.");
   changeable.parameter(
       "Checkpoint Minutes", output.checkpoint_minutes, at_least(0.),
-      "A checkpoint is written when the last one is so many minutes old, also in the middle of a long increment; 0 is "
-      "never. The end of the run, an error with status 3, SIGTERM, SIGINT and SIGUSR1 write one anyway. With "
-      "Checkpoint "
-      "Every those within an increment are of every twentieth solve, after which the preconditioner is set up anew "
-      "(not "
-      "if this is 0). The last two are kept.");
+      "Age of the last checkpoint, in minutes, at which the next one is written, also in the middle of a long "
+      "increment; 0 is never. The end of the run, an error with status 3, SIGTERM, SIGINT and SIGUSR1 write one "
+      "anyway. "
+      "With Checkpoint Every, checkpoints within an increment are taken after every twentieth solve, and the "
+      "preconditioner is then set up again (not if this is 0). The last two are kept.");
   section.parameter(
       "Reactions", output.reactions, names("a list of groups such as {left, right}"),
       "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed displacement.");

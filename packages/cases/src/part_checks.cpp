@@ -283,7 +283,7 @@ class Contacts {
   }
 };
 
-/// Parts that touch or overlap; what touches at nodes of both is told by these.
+/// Parts that touch or overlap; coincident nodes of two parts are among the contacts.
 template <int dim>
 void describe_contacts(const mesh::Mesh<dim>& mesh, const BodyParts<dim>& parts, std::vector<std::string>& lines) {
   if (parts.count() == 1) return;
@@ -313,8 +313,7 @@ void describe_seams(const mesh::Mesh<dim>& mesh, const BodyParts<dim>& parts, st
   if (inside.empty()) return;
   lines.push_back(
       fmt::format("{} of nodes lie at the same place, the first at {}: the body is open there, and no force passes. Is "
-                  "that a crack "
-                  "of the mesh, or are nodes to be merged (Coherence in gmsh)?",
+                  "that a crack of the mesh, or are nodes to be merged (Coherence in gmsh)?",
                   base::counted(inside.size(), "pair"), shown<dim>(mesh.coordinates[inside[0]])));
 }
 

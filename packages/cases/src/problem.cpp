@@ -29,8 +29,7 @@ void check_numbers(const Case& input, const model::Problem<dim>& problem) {
   if (is_sound(tau0) && (!breaks || (is_sound(stretch) && is_sound(energy)))) return;
   throw base::UserError(
       fmt::format("{}: /Material and /Peridynamics give tau0 = {:.4g}, s_crit = {:.4g}, G_c = {:.4g}, with E = {:.4g}, "
-                  "horizon = {:.4g}, "
-                  "l = {:.4g}; allowed are numbers that give finite ones above 0",
+                  "horizon = {:.4g}, l = {:.4g}; allowed are numbers that give finite ones above 0",
                   input.file, tau0, stretch, energy, input.material.youngs_modulus, problem.micromodulus.horizon,
                   problem.micromodulus.characteristic_length));
 }

@@ -28,8 +28,9 @@ void declare(const input::Section& decisive, Solver& solver, model::NumericalOpt
   section.choice(
       "Operator", numerical.operator_form, operator_forms,
       "How the coupled stiffness is applied: \"CRS\" is an assembled sparse matrix; \"Matrix-Free\" pulls along every "
-      "bond and strains every element anew, which moves several times fewer bytes. \"On-the-Fly\" also computes the "
-      "stiffness of every bond anew, in single precision: a third of the memory for bonds and operator, while "
+      "bond and strains every element each time, which moves several times fewer bytes. \"On-the-Fly\" also computes "
+      "the "
+      "stiffness of every bond each time, in single precision: a third of the memory for bonds and operator, while "
       "conjugate gradients take up to twice the time in three dimensions. For what would not fit otherwise.");
   section.choice(
       "Preconditioner Matrix", numerical.preconditioner_matrix, preconditioner_matrices,
@@ -51,17 +52,18 @@ void declare(const input::Section& decisive, Solver& solver, model::NumericalOpt
       "Of conjugate gradients in one solution. When they do not suffice, the system is tried twice more with other "
       "preconditioners; then the run ends with status 3. Far below 100 it may end although nothing is wrong.");
   section.parameter("Renewal Cost", numerical.solver.renewal_cost, at_least(0.),
-                    "The preconditioner is renewed when, since its last set-up, solutions have taken so many "
-                    "iterations more than they would have with a new one [-]: what a set-up costs, in iterations.");
+                    "The preconditioner is renewed when, since its last set-up, solutions have taken this many more "
+                    "iterations than they would have with a new one [-]: what a set-up costs, in iterations.");
   section.parameter(
       "Largest Imbalance", solver.largest_imbalance, at_least(1.),
-      "Elements are parted among the ranks by their number of bonds, and anew when the zone has grown and one rank has "
-      "more than so many times the mean of the work [-]. Near 1 it costs more than it saves.");
+      "The mesh is partitioned among the ranks by the number of bonds, and again when the zone has grown and one rank "
+      "has more than this many times the mean of the work [-]. Near 1 it costs more than it saves.");
   section.anything("Belos", numerical.solver.belos,
-                   "Any parameters of Belos, handed on as they are, over the program's own.");
+                   "Any parameters of Belos, passed on as they are; they override the program's own.");
   section.anything(
       "MueLu", numerical.solver.muelu,
-      "Any parameters of MueLu, handed on as they are, over the program's own. The W-cycle and its smoother are ours.");
+      "Any parameters of MueLu, passed on as they are; they override the program's own. The W-cycle and its smoother "
+      "are the program's.");
 }
 
 }  // namespace perimorph::cases

@@ -23,7 +23,7 @@ constexpr std::size_t longest_name = 200;
   throw base::UserError(fmt::format("{}: {}", file, why));
 }
 
-/// Only regular files: a pipe or a device could wait, or deliver, for ever.
+/// Only regular files: a pipe or a device could wait, or deliver, forever.
 void require_readable(const std::string& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);

@@ -44,7 +44,7 @@ void require(bool succeeded) {
 
 /// HDF5 works in memory only, on the image of a file: it has trouble with disks that fill up.
 Handle in_memory() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is told by us
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // we report what goes wrong
   return {H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
 }
 

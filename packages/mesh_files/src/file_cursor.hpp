@@ -19,7 +19,7 @@ class FileCursor {
   void set_binary() { binary_ = true; }
   bool binary() const { return binary_; }
 
-  /// Skips white space, and tells whether nothing follows.
+  /// Skips white space, and returns whether nothing follows.
   bool at_end();
 
   /// Nothing follows, not even white space.
@@ -85,7 +85,7 @@ class FileCursor {
   bool binary_ = false;
 };
 
-/// @throws base::UserError unless the file is a regular one (a pipe could wait for ever) and is not empty.
+/// @throws base::UserError unless the file is a regular one (a pipe could wait forever) and is not empty.
 void require_regular_file(const std::string& file, const std::string& wanted);
 
 /// The whole of a text as a number, with or without a sign. Returns whether it is one; those too small are 0.

@@ -169,7 +169,7 @@ class Search {
 std::string command_beyond_meshing(const std::string& geometry) {
   Search search;
   std::string found = search.in(geometry);
-  const std::string options = geometry + ".opt";  // gmsh reads it after the geometry, without being told to
+  const std::string options = geometry + ".opt";  // gmsh reads it after the geometry, unasked
   std::error_code ignored;
   const bool has_options = std::filesystem::is_regular_file(options, ignored);
   return found.empty() && has_options ? search.in(options) : found;

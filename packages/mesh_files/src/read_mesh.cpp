@@ -69,7 +69,7 @@ Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, doub
   mesh_geometry(file, meshed, dim, shell);
   MeshFile mesh = read_meshed_geometry(meshed, file);
   for (const std::string& command : undone_commands(file)) {
-    mesh.notes.push_back(fmt::format("{} has no effect: the geometry is meshed after all its commands, anew", command));
+    mesh.notes.push_back(fmt::format("{} has no effect: the geometry is meshed again after all its commands", command));
   }
   return build_mesh<dim>(mesh, scale);
 }

@@ -26,7 +26,7 @@ bool Rebalancing<dim>::is_wanted(const fracture::Body<dim>& body) {
   const auto [total, imbalance] = measure_work(*comm_, body);
   const double before = base::max(*comm_, std::accumulate(element_costs_.begin(), element_costs_.end(), 0.));
   if (imbalance <= largest_imbalance_ || total <= growth * before) return false;
-  log_->info("partition        anew: one rank has {:.2f} times the mean of the work", imbalance);
+  log_->info("repartitioned    one rank had {:.2f} times the mean of the work", imbalance);
   element_costs_ = partition_costs(*comm_, body);
   return true;
 }

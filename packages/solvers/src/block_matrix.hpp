@@ -25,7 +25,7 @@ class BlockMatrix {
   /// the other. Collective.
   explicit BlockMatrix(const Matrix& matrix);
 
-  /// Takes the values of the same matrix anew in some rows of blocks. Local.
+  /// Takes new values of the same matrix in some rows of blocks. Local.
   void read_values(const Matrix& matrix, const std::vector<int>& block_rows);
 
   int n_rows() const { return static_cast<int>(first_.size()) - 1; }

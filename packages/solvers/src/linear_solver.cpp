@@ -119,7 +119,7 @@ LinearSolver::Outcome LinearSolver::solve(const MultiVector& right_hand_side, Mu
   return outcome;
 }
 
-/// What has failed is never kept: a factorization that is no longer of the present matrix is made anew once more.
+/// What has failed is never kept: a factorization that is no longer of the present matrix is made once more.
 void LinearSolver::go_to_next_resort() {
   condition_ = Condition::missing;
   if (cycle_ != Cycle::one_level) cycle_ = cycle_ == Cycle::fast ? Cycle::robust : Cycle::one_level;

@@ -51,7 +51,7 @@ class Smoother {
     for (int row = 0; row < n_rows(); ++row) invert_diagonal(row);
   }
 
-  /// Takes the matrix's values anew in some rows.
+  /// Takes new values of the matrix in some rows.
   void refresh(const Matrix& matrix, const std::vector<int>& rows) {
     matrix_.read_values(matrix, rows);
     for (const int row : rows) invert_diagonal(row);

@@ -22,7 +22,7 @@ struct CycleLevel {
 /// l1-Gauss-Seidel].
 class SinglePrecisionCycle : public Operator {
  public:
-  /// Takes the finest matrix's values anew in some rows of blocks; the coarse ones stay, too stiff where it has become
+  /// Takes new values of the finest matrix in some rows of blocks; the coarse ones stay, too stiff where it has become
   /// softer. Local.
   virtual void refresh_finest(const std::vector<int>& block_rows) = 0;
 };

@@ -213,7 +213,7 @@ TEST(Geometry, WhatMeshingAnewUndoesIsTold) {
       "Mesh 2; Plugin(Crack).Dimension = 1; Plugin(Crack).PhysicalGroup = 2; Plugin(Crack).Run;\n";
   EXPECT_THAT(said_of<2>(written("plate.geo", square + crack)), HasSubstr("Plugin(Crack) has no effect"));
   EXPECT_THAT(said_of<2>(written("plate.geo", square + "Mesh 2; RecombineMesh;\n")),
-              HasSubstr("RecombineMesh has no effect: the geometry is meshed after all its commands, anew"));
+              HasSubstr("RecombineMesh has no effect: the geometry is meshed again after all its commands"));
   EXPECT_EQ(said_of<2>(written("plate.geo", square + "// Plugin(Crack).Run;")), "");
 }
 

@@ -1,4 +1,4 @@
-// The balance of forces as a list of terms: what it tells a solver agrees with finite differences and sums.
+// The balance of forces as a list of terms: what a solver sees of it agrees with finite differences and sums.
 
 #include "perimorph/operators/coupled_system.hpp"
 

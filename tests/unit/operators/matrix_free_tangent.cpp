@@ -74,16 +74,16 @@ TEST_P(MatrixFreeTangent, AgreesWithTheMatrixAfterBondsBreak) {
 TEST_P(MatrixFreeTangent, LeavesBrokenBondsOutWhenItIsMadeAnew) {
   const std::size_t bytes = matrix_free.bytes();
   body.stiffness->take({break_some()});
-  const auto anew = body.tangent(body.terms());
+  const auto rebuilt = body.tangent(body.terms());
   if (body.bonds.computes_stiffness()) {
-    EXPECT_LE(anew.bytes(), bytes);  // a block is left out when all of its bonds are gone
+    EXPECT_LE(rebuilt.bytes(), bytes);  // a block is left out when all of its bonds are gone
   } else {
-    EXPECT_LT(anew.bytes(), bytes);
+    EXPECT_LT(rebuilt.bytes(), bytes);
   }
   const Vector x = wave();
   Vector expected(x.getMap()), actual(x.getMap());
   body.stiffness->matrix()->apply(x, expected);
-  anew.apply(x, actual);
+  rebuilt.apply(x, actual);
   const double norm = expected.norm2();
   actual.update(-1., expected, 1.);
   EXPECT_LT(actual.norm2(), 1e-13 * norm);

@@ -27,7 +27,7 @@ def make_mesh(stem, geometry, *options, dimension=2):
 class Run(collections.namedtuple("Run", "status wall processor memory total_memory history phases topologies")):
     """Exit status; wall seconds, and processor seconds of all ranks, start and output included; memory in MiB of the rank
     with most, and of all ranks, None for a run that did not come to its end; the rows of history.csv; wall seconds of rank 0 by
-    phase; how often neighbours were searched anew."""
+    phase; how often neighbours were searched again."""
 
     @property
     def solving(self):
@@ -65,7 +65,7 @@ def program(ranks, what, case, settings):
 
 
 def check(case, settings=()):
-    """What perimorph check tells of a case, on one rank."""
+    """What perimorph check says of a case, on one rank."""
     done = subprocess.run(program(1, "check", case, settings), stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"{case}: the check ended with status {done.returncode}")

@@ -7,7 +7,7 @@
 namespace perimorph::bonds {
 
 /// Bonds that have just broken. Published once, and taken by everything that depends on bonds; every rank that holds a
-/// bond hears of it.
+/// bond receives it.
 struct BondChange {
   std::vector<BondId> broken;   ///< bonds of this rank, ascending
   base::GlobalId n_broken = 0;  ///< over all ranks, each counted once

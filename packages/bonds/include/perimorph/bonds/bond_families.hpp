@@ -90,7 +90,7 @@ class BondFamilies {
   /// [bytes] of memory, most of it 6 bytes a bond; 2 if stiffness is computed on the fly.
   std::size_t bytes() const;
 
-  /// The bond between two points of different elements, each told by element and number within it; n_bonds() if this
+  /// The bond between two points of different elements, each given by element and number within it; n_bonds() if this
   /// rank has none. Local.
   /// @param first,second local elements, in the order of the pair: the lower global id first
   /// @param first_end,second_end 0 ... number of the element's points - 1

@@ -48,8 +48,8 @@ class MaterialPoints {
     return references_[element]->shape[q];
   }
 
-  /// dN/dx at the q-th point of an element, (dim, n_corners), [1/length]. Computed anew, since stored they would be the
-  /// largest part of this: 192 bytes a point of a hexahedron.
+  /// dN/dx at the q-th point of an element, (dim, n_corners), [1/length]. Computed at each call: stored they would be
+  /// the largest part of this: 192 bytes a point of a hexahedron.
   ShapeGradients<dim> gradients(int element, int q) const;
 
   /// Global id of the q-th point of an element: the same on every rank and for every partition.

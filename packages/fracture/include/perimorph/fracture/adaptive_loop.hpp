@@ -19,11 +19,11 @@ struct LoopPosition {
   Accuracy accuracy = Accuracy::breaking;
 };
 
-/// Why the loop returns: all is done; it was asked to stop; or the mesh is to be partitioned anew. After the latter two
+/// Why the loop returns: all is done; it was asked to stop; or the mesh is to be repartitioned. After the latter two
 /// it can go on from its position, with a body restored from the state of this one.
 enum class LoopEnd { done, stopped, rebalance };
 
-/// Hears of what happens in the loop, and may interrupt it. All calls are collective, and all ranks answer alike.
+/// Is called on what happens in the loop, and may interrupt it. All calls are collective, and all ranks answer alike.
 template <int dim>
 class LoopObserver {
  public:

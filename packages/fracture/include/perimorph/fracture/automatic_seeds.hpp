@@ -23,7 +23,7 @@ std::vector<StretchedPlace<dim>> most_stretched(const base::Comm& comm, const Bo
                                                 const Problem<dim>& problem, const model::AutomaticSeed& seed);
 
 /// Replaces the automatic seeds of a problem by zones: solves it once, at the last increment's load and without
-/// breaking anything, and takes the most stretched places [WHL19, section 3.1]; the log tells them. Does nothing if
+/// breaking anything, and takes the most stretched places [WHL19, section 3.1]; the log lists them. Does nothing if
 /// there are no automatic seeds. Collective. @throws as Body does.
 template <int dim>
 void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,

@@ -38,7 +38,7 @@ class ForceTerm {
   /// force += dF / d load factor.
   virtual void add_load_derivative(base::Field /*force*/) const {}
 
-  /// Tells which unknowns the tangent couples, beside those of one element, in a matrix.
+  /// Adds the couplings of unknowns that the tangent has in a matrix, beside those within one element.
   virtual void couple(const StiffnessMatrix<dim>& /*matrix*/, Couplings<dim>& /*couplings*/) const {}
 
   /// Adds the tangent to a matrix.

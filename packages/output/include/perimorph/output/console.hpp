@@ -21,7 +21,7 @@ struct Totals {
   base::GlobalId iterations = 0;  ///< of conjugate gradients
 };
 
-/// What a run tells people while it goes on: a line for each accepted increment, progress within one, and a summary.
+/// What a run shows people while it goes on: a line for each accepted increment, progress within one, and a summary.
 class Console {
  public:
   /// @param profile must outlive this

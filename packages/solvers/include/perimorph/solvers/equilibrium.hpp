@@ -24,7 +24,7 @@ class Equilibrium {
   Equilibrium(const base::Comm& comm, SolverParameters parameters, base::Profile& profile)
       : solver_(comm, std::move(parameters), profile) {}
 
-  /// The solver of the corrections, which is told of new operators and changed values.
+  /// The solver of the corrections; new operators and changed values are handed to it.
   LinearSolver& linear_solver() { return solver_; }
 
   struct Outcome {
