@@ -33,7 +33,9 @@ struct Arguments {
     if (quiet) return application::Verbosity::quiet;
     return no_progress || isatty(STDOUT_FILENO) == 0 ? application::Verbosity::lines : application::Verbosity::progress;
   }
-  mesh_files::Shell shell() const { return allow_shell ? mesh_files::Shell::allowed : mesh_files::Shell::refused; }
+  mesh_files::SideEffects side_effects() const {
+    return allow_shell ? mesh_files::SideEffects::allowed : mesh_files::SideEffects::refused;
+  }
   application::Start start() const {
     return restart ? application::Start::from_checkpoint : application::Start::at_the_first_increment;
   }
@@ -45,7 +47,7 @@ cases::Case read_case(const base::Comm& comm, const Arguments& arguments) {
   for (const bool is_first : {true, false}) {  // it reports the mistakes, for which it may have to read the mesh
     base::on_all_ranks(comm, [&] {
       if (is_first != (comm.getRank() == 0)) return;
-      input = cases::read_case(arguments.case_file, arguments.overrides, arguments.shell());
+      input = cases::read_case(arguments.case_file, arguments.overrides, arguments.side_effects());
     });
   }
   return input;
@@ -94,9 +96,9 @@ void carry_out(const Teuchos::RCP<const base::Comm>& comm, const std::string& co
   } catch (...) {
   }
   std::fprintf(stderr, "perimorph: %s: all ranks are ended\n", reason);
-  int can_tell_others = 0;
-  MPI_Initialized(&can_tell_others);
-  if (can_tell_others != 0) MPI_Abort(MPI_COMM_WORLD, status);
+  int is_initialized = 0;
+  MPI_Initialized(&is_initialized);
+  if (is_initialized != 0) MPI_Abort(MPI_COMM_WORLD, status);
   std::_Exit(status);
 }
 

@@ -347,8 +347,8 @@ class Words(Checked):
     def test_the_summary_leaves_out_reactions_that_are_rounding(self):
         self.write_case({DISPLACEMENTS: held("right", "x") | held("lower", "y") | moved("upper", "y", 0.2)})
         run = self.run_case("--no-progress", *settings("Loading/Increments=1"))
-        told = [line.split()[1] for line in run.stdout.splitlines() if line.startswith("reaction ")]
-        self.assertEqual(told, ["lower_y", "upper_y"] if "right_x" not in told else told)
+        listed = [line.split()[1] for line in run.stdout.splitlines() if line.startswith("reaction ")]
+        self.assertEqual(listed, ["lower_y", "upper_y"] if "right_x" not in listed else listed)
         peaks = [abs(float(line.split()[3])) for line in run.stdout.splitlines() if line.startswith("reaction ")]
         self.assertGreater(min(peaks), 1e-5 * max(peaks))
 

@@ -46,10 +46,10 @@ class Installed(unittest.TestCase):
 
     def test_a_package_that_is_missing_is_told(self):
         (self.folder / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.21)\nproject(x CXX C)\nfind_package(Perimorph REQUIRED)\n")
-        told = subprocess.run([CMAKE, "-S", self.folder, "-B", self.folder / "lacking", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+        outcome = subprocess.run([CMAKE, "-S", self.folder, "-B", self.folder / "lacking", f"-DCMAKE_PREFIX_PATH={self.prefix}",
                                "-DCMAKE_DISABLE_FIND_PACKAGE_pugixml=ON"], capture_output=True, text=True, timeout=500)
-        self.assertNotEqual(told.returncode, 0)
-        self.assertIn("pugixml was not found. Install it with: apt-get install libpugixml-dev", " ".join(told.stderr.split()))
+        self.assertNotEqual(outcome.returncode, 0)
+        self.assertIn("pugixml was not found. Install it with: apt-get install libpugixml-dev", " ".join(outcome.stderr.split()))
 
     def test_the_tools_run_a_case_and_show_it(self):
         tool = lambda name: self.prefix / f"bin/perimorph-{name}"

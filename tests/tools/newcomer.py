@@ -65,18 +65,18 @@ class Newcomer(InFolder):
             time.sleep(0.1)
         self.assertIsNone(run.poll())
         run.terminate()
-        told = run.communicate(timeout=100)[1]
-        self.assertEqual(run.returncode, 3, told)
-        self.assertIn("SIGTERM asked it to stop", told)
+        outcome = run.communicate(timeout=100)[1]
+        self.assertEqual(run.returncode, 3, outcome)
+        self.assertIn("SIGTERM asked it to stop", outcome)
         last = len(history.read_text().splitlines()) - 1
         self.assertTrue((case / f"out/checkpoint-{last:06d}.h5").exists())
 
     def test_what_cannot_be_installed_is_told(self):
-        told = subprocess.run(
+        outcome = subprocess.run(
             [sys.executable, "-c", 'import messages; messages.need("numpy", "no_such_module", programs=["sh", "no_such_program"])'],
             cwd=self.clone / "tools/lib", capture_output=True, text=True, timeout=100)
-        self.assertEqual(told.returncode, 2, told.stderr)
-        self.assertIn("missing: no_such_module, no_such_program; tools/install-dependencies view did not install it", told.stderr)
+        self.assertEqual(outcome.returncode, 2, outcome.stderr)
+        self.assertIn("missing: no_such_module, no_such_program; tools/install-dependencies view did not install it", outcome.stderr)
 
 
 if __name__ == "__main__":

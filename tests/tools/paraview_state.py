@@ -49,9 +49,9 @@ class ParaView(InFolder):
     def test_mistakes_are_told(self):
         for arguments, piece in [([self.folder], "no Exodus file"), ([RUN, "--save", "x.png"], "states are .pvsm files"),
                                  ([RUN, "--warp", "much"], "--warp much")]:
-            told = self.paraview(*arguments)
-            self.assertEqual(told.returncode, 2)
-            self.assertIn(piece, told.stderr)
+            outcome = self.paraview(*arguments)
+            self.assertEqual(outcome.returncode, 2)
+            self.assertIn(piece, outcome.stderr)
 
 
 if __name__ == "__main__":

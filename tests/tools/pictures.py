@@ -66,9 +66,9 @@ class Render(InFolder):
                 film = self.folder / name
                 drawn = self.render("--warp", "20", "--step", steps, "-o", film)
                 self.assertEqual((drawn.returncode, drawn.stdout), (0, f"{film}\n"), drawn.stderr)
-                told = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", film],
+                outcome = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", film],
                                       capture_output=True, text=True, timeout=30)
-                stream = json.loads(told.stdout)["streams"][0]
+                stream = json.loads(outcome.stdout)["streams"][0]
                 self.assertEqual((stream["codec_name"], stream["nb_read_frames"]), (codec, steps))
 
     def test_mistakes_are_told_before_anything_is_drawn(self):

@@ -131,15 +131,15 @@ class Mistakes(Spread):
         self.run_until(1, *SPREAD, ranks=2)
         (self.output / "plate.e.2.0").unlink()
         for tool in ["join", "report", "render"]:
-            told = self.tool(tool, self.output)
-            self.assertEqual(told.returncode, 2, told.stderr)
-            self.assertIn("plate.e.2.1 are not those of one run; expected plate.e.2.0, plate.e.2.1", told.stderr)
+            outcome = self.tool(tool, self.output)
+            self.assertEqual(outcome.returncode, 2, outcome.stderr)
+            self.assertIn("plate.e.2.1 are not those of one run; expected plate.e.2.0, plate.e.2.1", outcome.stderr)
 
     def test_a_run_without_spread_files_is_told(self):
         self.run_until(1)
-        told = self.tool("join", self.output)
-        self.assertEqual(told.returncode, 2)
-        self.assertIn("no spread files", told.stderr)
+        outcome = self.tool("join", self.output)
+        self.assertEqual(outcome.returncode, 2)
+        self.assertIn("no spread files", outcome.stderr)
 
 
 class Pictures(Spread):

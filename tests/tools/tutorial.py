@@ -57,9 +57,9 @@ class Tutorial(InFolder):
             '<ParameterList name="Seeds"><ParameterList name="auto">'
             '<Parameter name="Shape" type="string" value="Automatic"/></ParameterList></ParameterList>'))
         tree.write(self.folder / "inputs/bracket/automatic.xml")
-        told = self.run_command("build/drivers/perimorph check inputs/bracket/automatic.xml")
-        places = sorted(tuple(map(float, place)) for place in re.findall(r"^seed .* auto: at \((\S+), (\S+)\)", told, re.MULTILINE))
-        self.assertEqual(len(places), 2, told)
+        printed = self.run_command("build/drivers/perimorph check inputs/bracket/automatic.xml")
+        places = sorted(tuple(map(float, place)) for place in re.findall(r"^seed .* auto: at \((\S+), (\S+)\)", printed, re.MULTILINE))
+        self.assertEqual(len(places), 2, printed)
         for place, wanted in zip(places, [(13, 20), (23, 20)]):  # centroids of elements of size 1
             self.assertLess(math.dist(place, wanted), 1.5)
 
@@ -98,9 +98,9 @@ class Tutorial(InFolder):
         tree.write(case)
         self.assert_automatic_seeds_go_beside_the_hole(tree)
 
-        told = [self.run_command(command) for command in commands[1:]]
+        printed = [self.run_command(command) for command in commands[1:]]
 
-        stretch = re.search(r"critical\s+stretch\s+s_crit\s+=\s+([\d.]+)", told[0]).group(1)
+        stretch = re.search(r"critical\s+stretch\s+s_crit\s+=\s+([\d.]+)", printed[0]).group(1)
         self.assertIn(f"{float(stretch):.4f}", text)  # what the tutorial says about the results
         rows, first = self.steps("results/bracket")
         forces = [float(row["reaction_top_y"]) for row in rows]

@@ -231,9 +231,9 @@ class Watch(InFolder):
             for arguments, piece in [([self.run_folder / "absent"], "no such directory"),
                                      ([self.run_folder, "--port", port], "--port 0 takes a free port"),
                                      ([self.run_folder, "--port", "99999"], "allowed is 0 to 65535")]:
-                told = subprocess.run([TOOLS / "watch", *arguments], capture_output=True, text=True, timeout=30)
-                self.assertEqual(told.returncode, 2)
-                self.assertIn(piece, told.stderr)
+                outcome = subprocess.run([TOOLS / "watch", *arguments], capture_output=True, text=True, timeout=30)
+                self.assertEqual(outcome.returncode, 2)
+                self.assertIn(piece, outcome.stderr)
 
     def test_a_browser_draws_the_curve(self):
         self.fill()

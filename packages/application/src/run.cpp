@@ -75,7 +75,7 @@ std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm
 
 /// What reading the mesh changed. The whole mesh, and its notes, are on rank 0.
 template <int dim>
-void tell_notes(const mesh::Mesh<dim>& whole, const base::Log& log) {
+void log_notes(const mesh::Mesh<dim>& whole, const base::Log& log) {
   for (const std::string& note : whole.notes) log->warn("note: {}", note);
 }
 
@@ -127,7 +127,7 @@ class Run {
   mesh::Mesh<dim> read() {
     const auto timer = profile_.measure(base::Phase::read);
     auto checked = cases::read_whole_mesh<dim>(*comm_, input_, folder_.for_mesh());
-    tell_notes(checked.whole, console_.log);
+    log_notes(checked.whole, console_.log);
     warn(console_.log, input_, checked.warnings);
     warn_of_names(checked.whole, input_, console_.log);
     checkpoints_.identify(checked.whole);
@@ -222,8 +222,8 @@ void run_in(const Comm& comm, const cases::Case& input, const std::string& folde
   check_solver_parameters(input);
   const auto log = base::make_log(*comm, verbosity == Verbosity::quiet);
   RunFolder run_folder(comm, input, folder, log);
-  const bool is_anew = start == Start::at_the_first_increment;
-  if (is_anew && !has_checkpoints(*comm, folder)) run_folder.open_log(false);
+  const bool starts_over = start == Start::at_the_first_increment;
+  if (starts_over && !has_checkpoints(*comm, folder)) run_folder.open_log(false);
   try {
     const bool shows_progress = verbosity == Verbosity::progress && comm->getRank() == 0;
     Run<dim> run(comm, input, run_folder, {log, shows_progress}, profile, start);
@@ -301,10 +301,10 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
   describe(*comm, input, problem, mesh, log);
   if (mesh_files::is_geometry(input.mesh.file)) {
     log->info("geometry         a program that gmsh runs; commands and writing files are {} (--allow-shell)",
-              input.mesh.shell == mesh_files::Shell::allowed ? "allowed" : "refused");
+              input.mesh.side_effects == mesh_files::SideEffects::allowed ? "allowed" : "refused");
   }
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
-  tell_notes(whole, log);
+  log_notes(whole, log);
   warn(log, input, warnings);
   warn_of_names(whole, input, log);
 

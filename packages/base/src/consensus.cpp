@@ -32,9 +32,9 @@ struct Consensus::Channel {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Iallreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, comm, &request);
     const double start = MPI_Wtime();
-    for (int has_come = 0;;) {
-      MPI_Test(&request, &has_come, MPI_STATUS_IGNORE);
-      if (has_come != 0) return lowest;
+    for (int is_complete = 0;;) {
+      MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE);
+      if (is_complete != 0) return lowest;
       if (patience > 0. && MPI_Wtime() - start > patience) give_up();
       sched_yield();
     }

@@ -25,7 +25,7 @@ class Printable : public spdlog::formatter {
 };
 
 /// Keeps messages until there is a file for them.
-class FileToCome : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+class DeferredFile : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
  public:
   void open(const std::string& name, bool append) {
     file_ = std::make_unique<spdlog::sinks::basic_file_sink_st>(name, !append);
@@ -62,7 +62,7 @@ Log make_log(const Comm& comm, bool quiet) {
   if (comm.getRank() != 0) return silent_log();
   auto terminal = std::make_shared<spdlog::sinks::stdout_sink_st>();
   terminal->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
-  const std::vector<spdlog::sink_ptr> sinks = {terminal, std::make_shared<FileToCome>()};
+  const std::vector<spdlog::sink_ptr> sinks = {terminal, std::make_shared<DeferredFile>()};
   auto log = std::make_shared<spdlog::logger>("perimorph", sinks.begin(), sinks.end());
   log->set_formatter(std::make_unique<Printable>());
   log->flush_on(spdlog::level::info);
@@ -70,7 +70,7 @@ Log make_log(const Comm& comm, bool quiet) {
 }
 
 void open_file(const Log& log, const std::string& file, bool append) {
-  const auto sink = std::dynamic_pointer_cast<FileToCome>(log->sinks().back());
+  const auto sink = std::dynamic_pointer_cast<DeferredFile>(log->sinks().back());
   PERIMORPH_ASSERT(sink, "{}: this log has no file", file);
   try {
     sink->open(file, append);

@@ -138,13 +138,14 @@ Teuchos::ParameterList case_schema() {
   return schema;
 }
 
-Case read_case(const std::string& file, const std::vector<std::string>& overrides, mesh_files::Shell shell) {
+Case read_case(const std::string& file, const std::vector<std::string>& overrides,
+               mesh_files::SideEffects side_effects) {
   Mistakes mistakes(file);
   Resolved resolved = input::read(file, overrides, case_schema(), mistakes);
   check(resolved, mistakes);
   if (!mistakes.empty()) {
     Case input = take(file, resolved, mistakes);
-    input.mesh.shell = shell;
+    input.mesh.side_effects = side_effects;
     if (!input.mesh.file.empty() && resolved.list.isParameter("Dimension")) {
       (input.dimension == 2 ? check_mesh_of<2> : check_mesh_of<3>)(input, mistakes);
     }
@@ -152,7 +153,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   }
   complete(resolved.list);
   Case input = take(file, resolved, mistakes);
-  input.mesh.shell = shell;
+  input.mesh.side_effects = side_effects;
   name_results(input);
   complete_lengths(input);
   complete_reactions(input);

@@ -299,7 +299,8 @@ void describe_contacts(const mesh::Mesh<dim>& mesh, const BodyParts<dim>& parts,
 
 /// Coincident nodes of one part.
 template <int dim>
-void describe_seams(const mesh::Mesh<dim>& mesh, const BodyParts<dim>& parts, std::vector<std::string>& lines) {
+void describe_coincident_nodes(const mesh::Mesh<dim>& mesh, const BodyParts<dim>& parts,
+                               std::vector<std::string>& lines) {
   const auto pairs = mesh::coincident_nodes(mesh);
   if (pairs.empty()) return;
   std::map<int, int> part_at;
@@ -343,7 +344,7 @@ std::vector<std::string> loose_connections(const mesh::Mesh<dim>& whole) {
   std::vector<std::string> lines;
   const BodyParts<dim> parts(whole, mesh::parts_of_elements(whole));
   describe_contacts(whole, parts, lines);
-  describe_seams(whole, parts, lines);
+  describe_coincident_nodes(whole, parts, lines);
   describe_hinges(whole, lines);
   return lines;
 }

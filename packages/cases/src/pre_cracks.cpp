@@ -58,15 +58,15 @@ void check_points(const input::Values& crack, const Numbers& points, int dimensi
                                                    : "two points or more, {x1, y1, x2, y2, ...}"));
     return;
   }
-  bool is_sound = true;
+  bool is_valid = true;
   for (int i = is_polygon ? 0 : 1; i < n; ++i) {
     const auto point = points.begin() + i * dimension, before = points.begin() + (i + n - 1) % n * dimension;
     if (!std::equal(point, point + dimension, before)) continue;
-    is_sound = false;
+    is_valid = false;
     crack.mistake("Points", fmt::format("found the point ({}) twice in a row; allowed are segments that have a length",
                                         fmt::join(point, point + dimension, ", ")));
   }
-  if (!is_polygon || !is_sound) return;
+  if (!is_polygon || !is_valid) return;
   std::vector<base::Point<3>> corners;
   for (int i = 0; i < n; ++i) corners.emplace_back(Eigen::Map<const base::Point<3>>(&points[i * 3]));
   if (is_flat_and_convex(corners)) return;

@@ -24,9 +24,9 @@ discretization::Loads<dim> make_loads(const BoundaryConditions& conditions) {
 template <int dim>
 void check_numbers(const Case& input, const model::Problem<dim>& problem) {
   const bool breaks = input.material.breaks();
-  const auto is_sound = [](double value) { return std::isfinite(value) && value > 0.; };
+  const auto is_valid = [](double value) { return std::isfinite(value) && value > 0.; };
   const double tau0 = problem.micromodulus.tau0, stretch = problem.critical_stretch, energy = problem.fracture_energy;
-  if (is_sound(tau0) && (!breaks || (is_sound(stretch) && is_sound(energy)))) return;
+  if (is_valid(tau0) && (!breaks || (is_valid(stretch) && is_valid(energy)))) return;
   throw base::UserError(
       fmt::format("{}: /Material and /Peridynamics give tau0 = {:.4g}, s_crit = {:.4g}, G_c = {:.4g}, with E = {:.4g}, "
                   "horizon = {:.4g}, l = {:.4g}; allowed are numbers that give finite ones above 0",

@@ -49,7 +49,7 @@ class Header {
         offset_size_(bytes_[3] == 1 ? 4 : 8),
         position_(4 + count_size_) {}  // magic, numrecs
 
-  bool is_sound() {
+  bool is_valid() {
     list([this] {
       const std::string name = text();
       dimensions_.push_back({name, count()});
@@ -155,10 +155,10 @@ class Header {
 
 }  // namespace
 
-bool is_sound_header(const std::string& file) {
+bool is_valid_header(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  return bytes.size() >= 16 && Header(std::move(bytes)).is_sound();
+  return bytes.size() >= 16 && Header(std::move(bytes)).is_valid();
 }
 
 }  // namespace perimorph::mesh_files

@@ -51,7 +51,7 @@ Container container_of(const std::string& file) {
   if (start == "\x89HDF\r\n\x1a\n") return Container::hdf5;
   const bool is_netcdf =
       start.size() >= 4 && start.substr(0, 3) == "CDF" && (start[3] == 1 || start[3] == 2 || start[3] == 5);
-  if (is_netcdf && !is_sound_header(file)) {
+  if (is_netcdf && !is_valid_header(file)) {
     throw base::UserError(
         file + ": its header contradicts itself or announces more than the file holds: it is truncated or damaged");
   }

@@ -190,7 +190,7 @@ std::vector<std::string> undone_commands(const std::string& geometry) {
   return found;
 }
 
-bool loses_its_end(const std::string& geometry) {
+bool ignores_last_command(const std::string& geometry) {
   const Tokens tokens(geometry);
   if (tokens.text().empty() || tokens.text().back() == '\n') return false;
   const auto last_line = 1 + std::count(tokens.text().begin(), tokens.text().end(), '\n');

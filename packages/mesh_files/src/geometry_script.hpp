@@ -10,7 +10,7 @@ namespace perimorph::mesh_files {
 std::string command_beyond_meshing(const std::string& geometry);
 
 /// Whether gmsh would pass over the last command: it does where the last line has several, and no line break. Local.
-bool loses_its_end(const std::string& geometry);
+bool ignores_last_command(const std::string& geometry);
 
 /// Commands of a geometry whose effect on a mesh is lost when it is meshed after them. Local.
 std::vector<std::string> undone_commands(const std::string& geometry);

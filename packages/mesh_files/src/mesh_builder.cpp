@@ -317,7 +317,7 @@ class MeshBuilder {
     for (std::size_t i = 0; i + 1 < sides_.size(); ++i) {
       if (sides_[i].key != sides_[i + 1].key) continue;
       const int first = sides_[i].side.element, second = sides_[i + 1].side.element;
-      if (same_nodes(first, second)) fail_twice(first, second);
+      if (same_nodes(first, second)) fail_duplicate(first, second);
       if (i + 2 < sides_.size() && sides_[i].key == sides_[i + 2].key) {
         fail("elements {}, {} and {} share one side: they overlap", file_tags_[first], file_tags_[second],
              file_tags_[sides_[i + 2].side.element]);
@@ -349,7 +349,7 @@ class MeshBuilder {
   }
 
   /// MSH 2.2 repeats an element for each of its groups.
-  [[noreturn]] void fail_twice(int first, int second) const {
+  [[noreturn]] void fail_duplicate(int first, int second) const {
     const std::string &a = mesh_.block_names[mesh_.blocks[first]], &b = mesh_.block_names[mesh_.blocks[second]];
     if (a == b) fail("elements {} and {} have the same nodes", file_tags_[first], file_tags_[second]);
     fail(

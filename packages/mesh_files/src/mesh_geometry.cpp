@@ -71,7 +71,7 @@ std::string find_program(const std::string& name) {
 
 /// Runs a program to its end, without input; collects what it writes on both streams.
 /// @param command its file and arguments
-Outcome run(Words command, Shell shell) {
+Outcome run(Words command, SideEffects side_effects) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return {errno, 0, ""};
   Words environment = environment_without_mpi();
@@ -82,7 +82,7 @@ Outcome run(Words command, Shell shell) {
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(ends[1], STDOUT_FILENO);
     dup2(ends[1], STDERR_FILENO);
-    if (shell == Shell::refused) forbid_other_programs(arguments[0]);
+    if (side_effects == SideEffects::refused) forbid_other_programs(arguments[0]);
     execve(arguments[0], arguments.data(), variables.data());
     _exit(not_started);
   }
@@ -140,11 +140,11 @@ void remove_quietly(const std::string& file) {
 
 bool is_geometry(const std::string& file) { return lower(std::filesystem::path(file).extension()) == ".geo"; }
 
-void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension, Shell shell) {
+void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension, SideEffects side_effects) {
   PERIMORPH_ASSERT(dimension == 2 || dimension == 3, "a mesh of dimension {}", dimension);
   require_regular_file(geo_file, "a geometry of gmsh");
-  if (shell == Shell::refused) refuse_commands(geo_file);
-  if (loses_its_end(geo_file)) {
+  if (side_effects == SideEffects::refused) refuse_commands(geo_file);
+  if (ignores_last_command(geo_file)) {
     throw base::UserError(
         geo_file +
         ": gmsh passes over the last command, since its line holds several and does not end in a line "
@@ -155,8 +155,9 @@ void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int
   if (gmsh.empty()) {
     throw base::UserError(geo_file + ": gmsh is needed to mesh it, but is not installed (apt-get install gmsh)");
   }
-  const Outcome outcome = run(
-      {gmsh, fmt::format("-{}", dimension), "-format", "msh41", "-bin", "-v", "2", geo_file, "-o", msh_file}, shell);
+  const Outcome outcome =
+      run({gmsh, fmt::format("-{}", dimension), "-format", "msh41", "-bin", "-v", "2", geo_file, "-o", msh_file},
+          side_effects);
   if (outcome.start_error != 0) {
     throw base::UserError(
         fmt::format("{}: gmsh cannot be started: {}", geo_file, std::generic_category().message(outcome.start_error)));

@@ -152,8 +152,8 @@ std::string Results<dim>::write_unfinished(int increment, const Body<dim>& body)
   const auto timer = profile_.measure(base::Phase::write);
   base::on_all_ranks(*comm_, [&] {
     const auto folder = std::filesystem::path(unfinished_.file).parent_path();
-    std::error_code told_when_a_file_is_made;
-    if (comm_->getRank() == 0) std::filesystem::create_directory(folder, told_when_a_file_is_made);
+    std::error_code reported_later;
+    if (comm_->getRank() == 0) std::filesystem::create_directory(folder, reported_later);
   });
   FieldSeries<dim>(comm_, unfinished_, {}, {}).write(body, values_of(record_of(increment, body)));
   return unfinished_.file;

@@ -126,7 +126,7 @@ NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Poi
   constexpr int n_rotations = dim * (dim - 1) / 2;
   // Where a mode is zero on all nodes of an aggregate, MueLu gives up, on that rank alone. Rotations are so on their
   // axis.
-  constexpr double next_to_nothing = 1e-100;
+  constexpr double tiny = 1e-100;
   const auto dof_map = matrix.getRowMap();
   const auto node_map =
       Teuchos::rcp(new Map(dof_map->getGlobalNumElements() / dim, coordinates.size(), 0, dof_map->getComm()));
@@ -145,7 +145,7 @@ NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Poi
     for (int i = 0; i < dim; ++i) {  // rotation in the plane of axes i and j
       for (int j = i + 1; j < dim; ++j, ++mode) {
         const bool is_on_axis = x[i] == 0. && x[j] == 0.;
-        modes(n * dim + i, mode) = is_on_axis ? next_to_nothing : -x[j];
+        modes(n * dim + i, mode) = is_on_axis ? tiny : -x[j];
         modes(n * dim + j, mode) = x[i];
       }
     }

@@ -15,7 +15,7 @@ namespace {
 using Teuchos::ParameterList;
 
 /// Values that the libraries take, and then crash on or wait for other ranks.
-std::string harm_in(const std::string& name, const Teuchos::ParameterEntry& entry) {
+std::string refused_value(const std::string& name, const Teuchos::ParameterEntry& entry) {
   if (name == "xml parameter file") return "found a file; allowed are the parameters themselves, in the case";
   if ((name == "max levels" || name == "Block Size") && Teuchos::getValue<int>(entry) < 1) {
     return fmt::format("found {}; allowed is 1 or more", Teuchos::getValue<int>(entry));
@@ -37,7 +37,7 @@ std::string mistake_in(const std::string& name, const Teuchos::ParameterEntry& e
   const auto& wanted = known.getEntry(name);
   const bool fits = entry.isList() == wanted.isList() &&
                     (entry.isList() || entry.getAny(false).type() == wanted.getAny(false).type());
-  if (fits) return harm_in(name, entry);
+  if (fits) return refused_value(name, entry);
   return fmt::format("found a value of type \"{}\"; {} takes \"{}\"", entry.getAny(false).typeName(), library,
                      wanted.getAny(false).typeName());
 }

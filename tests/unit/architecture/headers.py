@@ -65,8 +65,8 @@ class Headers(unittest.TestCase):
         alone = [header for header in files("*.hpp") if header not in first]
         self.assertGreater(len(files("*.hpp")), len(alone) + 50)
         with ThreadPoolExecutor(2) as pool:
-            told = pool.map(lambda header: messages(f'#include "{header}"\n', command_for(header, self.commands)), alone)
-            failed = [f"{header}\n{message}" for header, message in zip(alone, told) if message]
+            found = pool.map(lambda header: messages(f'#include "{header}"\n', command_for(header, self.commands)), alone)
+            failed = [f"{header}\n{message}" for header, message in zip(alone, found) if message]
         self.assertFalse(failed, "\n".join(failed))
 
     def test_one_that_lacks_an_include_is_found(self):

@@ -153,7 +153,7 @@ TEST(Geometry, CommandsRunIfTheyAreAllowed) {
   const std::string file = test_file("written"),
                     geo = written("plate.geo", square + "SystemCall \"touch " + file + "\";");
   std::filesystem::remove(file);
-  mesh_geometry(geo, test_file("plate.msh"), 2, Shell::allowed);
+  mesh_geometry(geo, test_file("plate.msh"), 2, SideEffects::allowed);
   EXPECT_TRUE(std::filesystem::exists(file));
 }
 

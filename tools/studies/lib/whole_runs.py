@@ -186,8 +186,8 @@ def print_operators(folder, scale):
         case = cube(folder, n, "all peridynamic", policy)
         for form in ("CRS", "Matrix-Free", "On-the-Fly"):
             setting = [f"Solver/Operator={form}"]
-            told = check(case, setting)
-            unknowns, bonds, memory = (int(re.search(r"(\d+) " + thing, told).group(1))
+            printed = check(case, setting)
+            unknowns, bonds, memory = (int(re.search(r"(\d+) " + thing, printed).group(1))
                                        for thing in ("unknowns", "MB for bonds", "MB for the operator"))
             of_crs = memory if form == "CRS" else of_crs
             one = run(case, os.path.join(folder, f"operator-{form}"), settings=setting)

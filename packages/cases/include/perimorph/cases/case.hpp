@@ -48,9 +48,9 @@ Teuchos::ParameterList case_schema();
 /// Reads and checks a case file; overrides are "Section/Sub/Name=value". Local.
 /// @throws UserError that lists ALL mistakes, one a line, "file:line: /path: what was found; what is allowed"; if there
 ///         are any, also what of the rest does not fit the mesh.
-/// @param shell whether a geometry may run commands and write files
+/// @param side_effects whether a geometry may run commands and write files
 Case read_case(const std::string& file, const std::vector<std::string>& overrides = {},
-               mesh_files::Shell shell = mesh_files::Shell::refused);
+               mesh_files::SideEffects side_effects = mesh_files::SideEffects::refused);
 
 /// The parameters that decide what a run computes, with their values, a line each: a run that goes on from a checkpoint
 /// must have the same. Local.

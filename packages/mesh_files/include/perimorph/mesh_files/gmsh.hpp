@@ -5,17 +5,17 @@
 namespace perimorph::mesh_files {
 
 /// Whether a geometry may run commands and write files: it is a program, and may come from anywhere.
-enum class Shell { refused, allowed };
+enum class SideEffects { refused, allowed };
 
 /// Whether a file is a geometry by its name, .geo. Local.
 bool is_geometry(const std::string& file);
 
 /// Runs gmsh (a separate process) on a .geo file and keeps the result as msh_file (MSH 4.1 binary). Local.
 /// @param dimension 2 or 3: surfaces or volumes are meshed
-/// @param shell unless allowed, gmsh's process can start no other
+/// @param side_effects unless allowed, gmsh's process can start no other
 /// @throws UserError with gmsh's own last messages if it fails or gmsh is not installed; if the geometry runs commands
 ///         or writes files without being allowed to.
 void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension,
-                   Shell shell = Shell::refused);
+                   SideEffects side_effects = SideEffects::refused);
 
 }  // namespace perimorph::mesh_files

@@ -28,9 +28,9 @@ mesh::Mesh<dim> read_mesh(const std::string& file, double scale = 1.);
 /// geometry. Local.
 /// @param folder that exists, for the mesh of a geometry
 /// @param scale as for read_mesh() [-]
-/// @param shell whether the geometry may run commands and write files
+/// @param side_effects whether the geometry may run commands and write files
 template <int dim>
 mesh::Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale = 1.,
-                              Shell shell = Shell::refused);
+                              SideEffects side_effects = SideEffects::refused);
 
 }  // namespace perimorph::mesh_files
