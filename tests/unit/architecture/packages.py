@@ -1,4 +1,5 @@
-"""The packages depend on each other one way only, in the order of PERIMORPH_PACKAGES, and libraries stay where they belong.
+"""The packages depend on each other one way only, in the order of PERIMORPH_PACKAGES, libraries stay where they belong, and none
+of the packages grows at the cost of the others.
 
     packages.py SOURCE_FOLDER     checks the source, then that every rule finds a planted violation in a copy of it
 """
@@ -28,6 +29,9 @@ PUGIXML = re.compile(r"pugixml")
 PUGIXML_IN = {"input": None}
 EXODUS = re.compile(r"(exodusII|netcdf|hdf5)")
 EXODUS_IN = {"io": None, "mesh_files": ["exodusII"]}
+MOST_OF_ALL_LINES = 0.2  # in one package
+MOST_LINES = {"fracture": 1000}  # the loop reads as a whole
+MOST_LINES_OF_A_FILE = 500
 
 
 def ordered_packages(source):
@@ -127,6 +131,22 @@ def unit_test_violations(source):
             yield f"{folder}: there is no package of that name, and its tests are not built"
 
 
+def n_lines(file):
+    return len(file.read_text().splitlines())
+
+
+def size_violations(source):
+    files = {package: code_of(source / "packages" / package) for package in ordered_packages(source)}
+    sizes = {package: sum(map(n_lines, own)) for package, own in files.items()}
+    for package, size in sizes.items():
+        most = min(int(MOST_OF_ALL_LINES * sum(sizes.values())), MOST_LINES.get(package, size))
+        if size > most:
+            yield f"{source / 'packages' / package}: has {size} lines; allowed are {most}"
+        for file in files[package]:
+            if n_lines(file) > MOST_LINES_OF_A_FILE:
+                yield f"{file}: has {n_lines(file)} lines; allowed are {MOST_LINES_OF_A_FILE}"
+
+
 def violations(source):
     return [
         *include_violations(source),
@@ -138,6 +158,7 @@ def violations(source):
         *library_violations(source, PUGIXML, PUGIXML_IN),
         *folder_violations(source),
         *unit_test_violations(source),
+        *size_violations(source),
     ]
 
 
@@ -226,6 +247,20 @@ class PlantedViolations(unittest.TestCase):
     def test_pugixml_outside_input(self):
         self.append("cases/src/case.cpp", "#include <pugixml.hpp>")
         self.assert_found("pugixml.hpp does not belong into cases")
+
+    def test_a_package_with_more_than_a_fifth_of_all_lines(self):
+        for number in range(15):
+            (self.copy / f"packages/model/src/part_{number}.cpp").write_text("//\n" * 490)
+        self.assert_found("packages/model: has")
+
+    def test_a_loop_of_more_than_a_thousand_lines(self):
+        for number in range(2):
+            (self.copy / f"packages/fracture/src/part_{number}.cpp").write_text("//\n" * 490)
+        self.assert_found("packages/fracture: has", "allowed are 1000")
+
+    def test_a_long_file(self):
+        self.append("bonds/src/visibility.cpp", "\n" * 500)
+        self.assert_found("visibility.cpp: has")
 
     def test_unit_tests_of_no_package(self):
         (self.copy / "tests/unit/nowhere").mkdir()
