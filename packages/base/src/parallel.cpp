@@ -26,6 +26,14 @@ T reduce(const Comm& comm, Teuchos::EReductionType operation, T value) {
   return result;
 }
 
+/// Whether all ranks have the same number. Collective: it ends on all of them, whatever they have.
+bool is_alike(const Comm& comm, std::size_t n) {
+  const auto value = static_cast<GlobalId>(n);
+  const GlobalId smallest = reduce(comm, Teuchos::REDUCE_MIN, value);
+  const GlobalId largest = reduce(comm, Teuchos::REDUCE_MAX, value);
+  return smallest == largest;
+}
+
 }  // namespace
 
 MPI_Comm mpi_communicator(const Comm& comm) {
@@ -49,8 +57,8 @@ double max(const Comm& comm, double value) { return reduce(comm, Teuchos::REDUCE
 GlobalId max(const Comm& comm, GlobalId value) { return reduce(comm, Teuchos::REDUCE_MAX, value); }
 
 void sum(const Comm& comm, std::vector<double>& values) {
-  const auto n = static_cast<GlobalId>(values.size());
-  PERIMORPH_DEBUG_ASSERT(max(comm, n) == n && max(comm, -n) == -n, "{} values here, other ranks have more or fewer", n);
+  PERIMORPH_DEBUG_ASSERT(is_alike(comm, values.size()), "{} values here, other ranks have more or fewer",
+                         values.size());
   const std::vector<double> local = values;
   Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, static_cast<int>(local.size()), local.data(), values.data());
 }
