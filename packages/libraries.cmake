@@ -26,6 +26,7 @@ perimorph_find(fmt libfmt-dev)
 perimorph_find(spdlog libspdlog-dev)
 perimorph_find(pugixml libpugixml-dev)
 perimorph_find(ZLIB zlib1g-dev)
+perimorph_find(Boost libboost-dev)
 
 find_path(EXODUSII_INCLUDE_DIR exodusII.h)
 find_library(EXODUSII_LIBRARY exoIIv2c)

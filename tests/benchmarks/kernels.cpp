@@ -9,7 +9,7 @@
 
 namespace perimorph::tests {
 
-std::unique_ptr<CoupledBody> the_square;
+std::unique_ptr<CoupledBody> the_square, the_square_with_dilatation;
 
 namespace {
 
@@ -23,16 +23,18 @@ int side() {
   return n == nullptr ? 200 : std::atoi(n);
 }
 
-const CoupledBody& square() {
-  if (the_square == nullptr) {
+const CoupledBody& made_once(std::unique_ptr<CoupledBody>& body, double poissons_ratio) {
+  if (body == nullptr) {
     const double length = side();
     Setup setup{{side(), side(), length, length}, horizon, 0.2, {morphing::Zone<2>::everything()}};
     setup.whole_zone_discontinuous = true;
     setup.prescribed = {{"x", "left", 0, {0., 0.}}, {"y", "left", 1, {0., 0.}}};
-    the_square = std::make_unique<CoupledBody>(setup);
+    setup.poissons_ratio = poissons_ratio;
+    body = std::make_unique<CoupledBody>(setup);
   }
-  return *the_square;
+  return *body;
 }
+const CoupledBody& square() { return made_once(the_square, 1. / 3.); }
 
 Vector wave(const Teuchos::RCP<const Tpetra::Map<>>& map) {
   Vector x(map);
@@ -64,6 +66,13 @@ void apply_matrix_free(benchmark::State& state) {
   apply(state, stiffness, static_cast<double>(stiffness.bytes()));
 }
 
+/// With the dilatation of another Poisson's ratio than that of bonds alone.
+void apply_dilatation(benchmark::State& state) {
+  const auto& body = made_once(the_square_with_dilatation, 0.2);
+  const auto stiffness = body.tangent(body.terms());
+  apply(state, stiffness, static_cast<double>(stiffness.bytes()));
+}
+
 /// a = b + s c, on arrays far larger than the caches.
 void stream_triad(benchmark::State& state) {
   constexpr std::size_t n = 20'000'000;
@@ -92,7 +101,7 @@ void solve(benchmark::State& state, const PreconditionerSource& source) {
   base::Profile profile;
   int iterations = 0;
   for (auto _ : state) {
-    solvers::LinearSolver solver({}, profile);
+    solvers::LinearSolver solver(*body.comm, {}, profile);
     solver.set_operator(stiffness, source.stiffness->matrix(), source.modes, source.basis);
     iterations = solver.solve(load, x, 1e-8 * load.norm2()).iterations;
   }
@@ -108,6 +117,7 @@ void solve_short_range(benchmark::State& state) { solve(state, short_range(squar
 BENCHMARK(stream_triad)->Unit(benchmark::kMillisecond);
 BENCHMARK(apply_crs)->Unit(benchmark::kMillisecond);
 BENCHMARK(apply_matrix_free)->Unit(benchmark::kMillisecond);
+BENCHMARK(apply_dilatation)->Unit(benchmark::kMillisecond);
 BENCHMARK(solve_coupled)->Arg(0)->Unit(benchmark::kMillisecond);
 BENCHMARK(solve_short_range)->Arg(0)->Unit(benchmark::kMillisecond);
 // Only their iterations are of interest.
@@ -121,5 +131,7 @@ int main(int argc, char** argv) {
   const Tpetra::ScopeGuard scope(&argc, &argv);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
-  perimorph::tests::the_square.reset();  // while MPI still runs
+  using namespace perimorph::tests;  // they end while MPI still runs
+  the_square.reset();
+  the_square_with_dilatation.reset();
 }

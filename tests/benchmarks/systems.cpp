@@ -107,7 +107,7 @@ class Solution {
     terms_ = body_.terms();
     stiffness_ = Teuchos::rcp(new operators::MatrixFreeTangent<2>(body_.tangent(terms_)));
     source_ = short_range(body_, horizon);
-    solver_ = std::make_unique<solvers::LinearSolver>(solvers::SolverParameters{}, profile_);
+    solver_ = std::make_unique<solvers::LinearSolver>(*body_.comm, solvers::SolverParameters{}, profile_);
     solver_->set_operator(stiffness_, source_.stiffness->matrix(), source_.modes, source_.basis);
     x_.putScalar(0.);
     correct(state, 0.);

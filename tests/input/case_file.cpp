@@ -121,6 +121,12 @@ TEST_F(CaseFile, PoissonsRatioNearTheRightOneIsTakenAsExact) {
   EXPECT_EQ(read(replaced(plane_strain, "0.3333", "0.2501")).material.poissons_ratio, 0.25);
 }
 
+TEST_F(CaseFile, AnotherPoissonsRatioIsTakenAsItIs) {
+  for (const char* ratio : {"-0.3", "0", "0.2", "0.332", "0.49"}) {
+    EXPECT_EQ(read(replaced(valid, "0.3333", ratio)).material.poissons_ratio, std::stod(ratio));
+  }
+}
+
 TEST_F(CaseFile, NothingNeedsToBreakAndNoZoneIsNeeded) {
   const auto first = valid.find("  <ParameterList name=\"Morphing\">");
   const auto last = valid.find("  <ParameterList name=\"Pre-Cracks\">");

@@ -176,11 +176,16 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Together, OneMistake,
     testing::Values(
-        Mistake{"PoissonInPlaneStress", R"xml(value="0.3333")xml", R"xml(value="0.3")xml",
-                ":7: /Material/Poisson's Ratio: found 0.3; allowed is 0.3333 (1/3) for \"Plane Stress\": bond-based "
-                "peridynamics, with central forces between pairs of points, has this one ratio"},
-        Mistake{"PoissonInPlaneStrain", "Plane Stress", "Plane Strain",
-                R"xml(found 0.3333; allowed is 0.25 (1/4) for "Plane Strain")xml"},
+        Mistake{"PoissonOfNoSolid", R"xml(value="0.3333")xml", R"xml(value="0.5")xml",
+                ":7: /Material/Poisson's Ratio: found 0.5; allowed are ratios above -1 and below 0.5: beyond, a solid "
+                "would not resist shear or a change of its volume"},
+        Mistake{"PoissonBelowMinusOne", R"xml(value="0.3333")xml", R"xml(value="-1")xml",
+                ":7: /Material/Poisson's Ratio: found -1; allowed are ratios above -1"},
+        Mistake{"PoissonInPlaneStrain", R"xml(value="0.3333"/>
+    <Parameter name="Elastic Model" type="string" value="Plane Stress"/>)xml",
+                R"xml(value="0.46"/>
+    <Parameter name="Elastic Model" type="string" value="Plane Strain"/>)xml",
+                R"xml(found 0.46; allowed are ratios up to 0.45 for "Plane Strain": closer to 0.5 the volume)xml"},
         Mistake{
             "StretchAndEnergy", R"xml(<Parameter name="Critical Stretch")xml",
             R"xml(<Parameter name="Fracture Energy" type="double" value="1"/><Parameter name="Critical Stretch")xml",
@@ -268,8 +273,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"xml(value="0.3333"/>
     <Parameter name="Elastic Model" type="string" value="Plane Stress"/>)xml",
             R"xml(:8: /Material/Elastic Model: found "Plane Stress"; allowed is "Three-Dimensional" in three dim)xml"},
-        Mistake{"PoissonsRatio", R"xml(value="0.25")xml", R"xml(value="0.3")xml",
-                R"xml(:7: /Material/Poisson's Ratio: found 0.3; allowed is 0.25 (1/4) for "Three-Dimensional")xml"},
+        Mistake{"PoissonsRatio", R"xml(value="0.25")xml", R"xml(value="0.49")xml",
+                R"xml(:7: /Material/Poisson's Ratio: found 0.49; allowed are ratios up to 0.45 for "Three-Dimen)xml"},
         Mistake{
             "Circle", R"xml(value="Sphere")xml", R"xml(value="Circle")xml",
             R"xml(:18: /Morphing/Seeds/tip/Shape: found "Circle"; allowed is "Sphere" or "Cylinder" or "Box" or )xml"
@@ -352,11 +357,20 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NotXml", valid, "Horizon = 1.5", R"xml(:1: found the text "Horizon = 1.5"; allowed is one)xml"}),
     named);
 
+TEST_F(CaseFile, AMatrixCannotHoldDilatation) {
+  const std::string other_ratio = replaced(valid, R"xml(value="0.3333")xml", R"xml(value="0.3")xml");
+  EXPECT_THAT(
+      error(other_ratio, {"Solver/Operator=CRS"}),
+      HasSubstr("--set: /Solver/Operator: found \"CRS\"; with this Poisson's ratio allowed is \"Matrix-Free\" or "
+                "\"On-the-Fly\": through the dilatation"));
+  EXPECT_EQ(read(valid, {"Solver/Operator=CRS"}).numerical.operator_form, perimorph::operators::OperatorForm::crs);
+}
+
 // --- several mistakes ---
 
 TEST_F(CaseFile, AllMistakesAreListedInOneGoByLine) {
   std::string text = replaced(valid, horizon, R"xml(name="Horizon" type="double" value="abc")xml");
-  text = replaced(text, R"xml(value="0.3333")xml", R"xml(value="0.3")xml");
+  text = replaced(text, R"xml(value="0.3333")xml", R"xml(value="0.6")xml");
   text = replaced(text, elastic_model, elastic_model + R"xml( unit="none")xml");
   text = replaced(text, R"xml(name="Increments")xml", R"xml(name="Incremnets")xml");
   text = replaced(text, "{0, -1}", "{0}");
@@ -381,7 +395,7 @@ TEST_F(CaseFile, AllMistakesAreListedInOneGoByLine) {
 }
 
 TEST_F(CaseFile, WhatDoesNotFitTheMeshIsListedWithTheOthers) {
-  std::string text = replaced(valid, R"xml(value="0.3333")xml", R"xml(value="0.3")xml");
+  std::string text = replaced(valid, R"xml(value="0.3333")xml", R"xml(value="0.6")xml");
   text = replaced(text, horizon, R"xml(name="Horizon" type="double" value="0.5")xml");
   text = replaced(text, R"xml(name="guide")xml", R"xml(name="pull again")xml");
   text = replaced(text, R"xml(value="y")xml", R"xml(value="x")xml");

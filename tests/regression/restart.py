@@ -31,6 +31,17 @@ class Continued(GrowingCrack):
                     self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
                     self.assert_same(self.outcome(), whole)
 
+    def test_with_dilatation_it_ends_with_the_same_bits(self):
+        volume = [*EVERY, "--set", "Material/Poisson's Ratio=0.2"]
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.run_until(INCREMENTS, *volume, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 0)
+                self.run_until(14, *volume, ranks=ranks)
+                self.run_until(INCREMENTS, *volume, "--restart", ranks=ranks)
+                self.assert_same(self.outcome(), whole)
+
     def test_on_other_ranks_the_same_bonds_break(self):
         rows, times, steps = self.uninterrupted()
         for before, after in [(1, 2), (3, 1)]:

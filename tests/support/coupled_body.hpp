@@ -27,12 +27,13 @@ struct Setup {
   std::vector<discretization::PrescribedComponent> prescribed = {};
   std::vector<mesh::CrackFacet<2>> pre_cracks = {};
   bonds::StiffnessStorage kept = bonds::StiffnessStorage::stored;
+  double poissons_ratio = 1. / 3.;
 };
 
 struct CoupledBody {
   using Matrix = Tpetra::CrsMatrix<double>;
 
-  Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
+  Teuchos::RCP<const base::Comm> comm;
   mesh::Mesh<2> mesh;
   base::Stiffness<2> e0;
   materials::Micromodulus c0;
@@ -49,14 +50,18 @@ struct CoupledBody {
   std::unique_ptr<operators::StiffnessMatrix<2>> stiffness;
 
   static constexpr double youngs_modulus = 1000.;
+  static constexpr auto elastic_model = materials::ElasticModel::plane_stress;
 
-  explicit CoupledBody(const Setup& setup) : CoupledBody(setup, grid(setup.grid)) {}
+  explicit CoupledBody(const Setup& setup, const Teuchos::RCP<const base::Comm>& on = Tpetra::getDefaultComm())
+      : CoupledBody(setup, grid(setup.grid), on) {}
 
-  /// @param whole the whole mesh (used on rank 0)
-  CoupledBody(const Setup& setup, const mesh::Mesh<2>& whole)
-      : mesh(mesh::distribute(*comm, whole, setup.horizon)),
-        e0(materials::elasticity_tensor<2>(materials::ElasticModel::plane_stress, youngs_modulus, 1. / 3.)),
-        c0(materials::calibrate<2>(materials::ElasticModel::plane_stress, youngs_modulus, setup.characteristic_length,
+  /// @param whole the whole mesh (used on rank 0); @param on the ranks that share it
+  CoupledBody(const Setup& setup, const mesh::Mesh<2>& whole,
+              const Teuchos::RCP<const base::Comm>& on = Tpetra::getDefaultComm())
+      : comm(on),
+        mesh(mesh::distribute(*comm, whole, setup.horizon)),
+        e0(materials::elasticity_tensor<2>(elastic_model, youngs_modulus, setup.poissons_ratio)),
+        c0(materials::calibrate<2>(elastic_model, youngs_modulus, setup.poissons_ratio, setup.characteristic_length,
                                    setup.horizon)),
         topology(comm, mesh,
                  {setup.zones, setup.pre_cracks, c0, morphing::BlendingFunction::linear,
@@ -64,7 +69,7 @@ struct CoupledBody {
                                                  : discretization::DiscontinuousElements::on_damage,
                   2., 4., 2, setup.kept}),
         dirichlet(*comm, mesh, setup.prescribed),
-        elasticity(e0, setup.policy) {
+        elasticity(e0, setup.policy, materials::dilatational_ratio(elastic_model, setup.poissons_ratio) / 4.) {
     topology.update(topology.grow({}));
     elasticity.update(mesh, points, bonds, alpha, classes, discontinuous);
     dofs = &topology.dofs();

@@ -3,6 +3,7 @@
 // A breaking body made in memory, without a case file, and the adaptive loop over it without results.
 
 #include <Tpetra_Core.hpp>
+#include <optional>
 
 #include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/mesh/distribute.hpp"
@@ -37,6 +38,8 @@ struct SpecimenIn {
   double breaking_fraction = 1.;   ///< share of the overstretched bonds that break between two solves
   std::vector<double> costs = {};  ///< of elements, by which they are parted among the ranks; equal if there are none
   int points_per_direction = 2;
+  std::optional<double> poissons_ratio = {};  ///< none: what bonds alone have
+  morphing::BlendingFunction blending_function = morphing::BlendingFunction::linear;
 };
 using Specimen = SpecimenIn<2>;
 
@@ -44,11 +47,15 @@ template <int dim>
 model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   const auto model = specimen.elastic_model;
   const double youngs_modulus = specimen.youngs_modulus;
-  const auto c0 = materials::calibrate<dim>(model, youngs_modulus, specimen.characteristic_length, specimen.horizon);
-  return {materials::elasticity_tensor<dim>(model, youngs_modulus, materials::bond_based_poissons_ratio(model)),
+  const double poissons_ratio = specimen.poissons_ratio.value_or(materials::bond_based_poissons_ratio(model));
+  const double ratio = materials::dilatational_ratio(model, poissons_ratio);
+  const auto c0 = materials::calibrate<dim>(model, youngs_modulus, poissons_ratio, specimen.characteristic_length,
+                                            specimen.horizon);
+  return {materials::elasticity_tensor<dim>(model, youngs_modulus, poissons_ratio),
+          ratio,
           c0,
           specimen.critical_stretch,
-          materials::fracture_energy<dim>(c0, specimen.critical_stretch),
+          materials::fracture_energy<dim>(c0, specimen.critical_stretch, ratio),
           specimen.seeds,
           specimen.pre_cracks,
           specimen.displacements,
@@ -59,7 +66,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
 template <int dim>
 model::NumericalOptions make_options(const SpecimenIn<dim>& specimen) {
   model::NumericalOptions options;
-  options.blending_function = morphing::BlendingFunction::linear;
+  options.blending_function = specimen.blending_function;
   options.discontinuous = specimen.discontinuous;
   options.peridynamic_stiffness = specimen.peridynamic_stiffness;
   options.growth_inner_radius = 2. * specimen.horizon;

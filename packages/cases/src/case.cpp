@@ -54,6 +54,7 @@ void check(const Resolved& resolved, Mistakes& mistakes) {
   check_morphing(root.sub("Morphing"), *dimension);
   for (const auto& crack : root.subs("Pre-Cracks")) check_pre_crack(crack, *dimension);
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);
+  check_solver(root.sub("Solver"), has_dilatation(root.sub("Material")));
   check_output(root.sub("Output"), *dimension);
 }
 

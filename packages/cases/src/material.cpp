@@ -19,23 +19,30 @@ constexpr std::array<Choice<ElasticModel>, 3> elastic_models{
 constexpr std::array<Choice<Calibration>, 2> calibrations{
     {{"Analytic", Calibration::analytic}, {"Mesh-Consistent", Calibration::mesh_consistent}}};
 
-/// The one Poisson's ratio of bond-based peridynamics for an "Elastic Model": pair-wise central forces leave no other.
-double poissons_ratio_of(const std::string& elastic_model) {
-  return materials::bond_based_poissons_ratio(input::value_of(elastic_models, elastic_model));
+/// The ratio that bonds alone have, for one within 0.1 % of it; another as it is.
+double exact_ratio(ElasticModel model, double ratio) {
+  // 1e-3 relative, and a little, since 0.333 is exactly 1e-3 off 1/3.
+  const double of_bonds = materials::bond_based_poissons_ratio(model);
+  return std::abs(ratio - of_bonds) <= 1.0001e-3 * of_bonds ? of_bonds : ratio;
 }
 
 void check_poissons_ratio(const input::Values& material) {
+  constexpr double largest = 0.45;
   const double* ratio = material.number("Poisson's Ratio");
-  const std::string* model = material.text("Elastic Model");
-  if (ratio == nullptr || model == nullptr) return;
-  // 1e-3 relative, and a little, since 0.333 is exactly 1e-3 off 1/3.
-  const double needed = poissons_ratio_of(*model);
-  if (std::abs(*ratio - needed) <= 1.0001e-3 * needed) return;
+  const std::string* word = material.text("Elastic Model");
+  if (ratio == nullptr || word == nullptr) return;
+  const bool is_plane_stress = input::value_of(elastic_models, *word) == ElasticModel::plane_stress;
+  if (*ratio > -1. && (is_plane_stress ? *ratio < 0.5 : *ratio <= largest)) return;
   material.mistake(
       "Poisson's Ratio",
-      fmt::format("found {}; allowed is {} for \"{}\": bond-based peridynamics, with central forces between "
-                  "pairs of points, has this one ratio",
-                  *ratio, needed == 0.25 ? "0.25 (1/4)" : "0.3333 (1/3)", *model));
+      *ratio <= -1. || *ratio >= 0.5
+          ? fmt::format(
+                "found {}; allowed are ratios above -1 and below 0.5: beyond, a solid would not resist shear or "
+                "a change of its volume",
+                *ratio)
+          : fmt::format("found {}; allowed are ratios up to {} for \"{}\": closer to 0.5 the volume hardly changes, "
+                        "and elements and conjugate gradients lock",
+                        *ratio, largest, *word));
 }
 
 }  // namespace
@@ -47,9 +54,11 @@ void declare(const input::Section& section, Material& material) {
                    "fracture energy is in N/mm. Ten times E gives ten times the forces, and a fracture energy then "
                    "belongs to a critical stretch smaller by the root of ten.");
   section.required("Poisson's Ratio", material.poissons_ratio, 1. / 3., any_number(),
-                   "nu [-]. Bond-based peridynamics, with central forces between pairs of points, has one ratio only: "
-                   "1/3 in plane stress, 1/4 in plane strain and in three dimensions. A value within 0.1 % of it "
-                   "(0.333) is taken as exactly that.");
+                   "nu [-], above -1 and below 0.5, up to 0.45 in plane strain and three dimensions. Bonds alone have "
+                   "1/3 in plane stress and 1/4 otherwise: that costs least, and a value within 0.1 % of it (0.333) is "
+                   "taken as exactly that. With any other one the bonds carry the shear modulus, and the dilatation of "
+                   "their points what is left (state-based peridynamics): each iteration of conjugate gradients then "
+                   "costs about twice as much, and the Operator cannot be \"CRS\".");
   section.required_choice(
       "Elastic Model", material.elastic_model, elastic_models,
       "In two dimensions what is assumed across the thickness, which is 1 [length]: thin plates are in plane stress, "
@@ -63,7 +72,8 @@ void declare(const input::Section& section, Material& material) {
   section.optional("Fracture Energy", material.fracture_energy, 0.1, above(0.),
                    "G_c [force/length]: the energy per area of new crack. The critical stretch is derived from it, in "
                    "two dimensions by G_c = s_crit^2 times the integral of c0(r) r^6 over r from 0 to the horizon, in "
-                   "three by pi/2 s_crit^2 times that of c0(r) r^7, so that it stays the same when the horizon or the "
+                   "three by pi/2 s_crit^2 times that of c0(r) r^7, and what the dilatation stores beside, so that it "
+                   "stays the same when the horizon or the "
                    "characteristic length is changed. Data sheets give toughness K_c = sqrt(G_c E) in plane stress; "
                    "K_c taken for G_c is wrong by orders of magnitude.");
   section.choice(
@@ -86,7 +96,16 @@ void check_material(const input::Values& section, int dimension) {
 }
 
 void complete_material(Teuchos::ParameterList& values) {
-  values.set("Poisson's Ratio", poissons_ratio_of(values.get<std::string>("Elastic Model")));
+  const auto model = input::value_of(elastic_models, values.get<std::string>("Elastic Model"));
+  values.set("Poisson's Ratio", exact_ratio(model, values.get<double>("Poisson's Ratio")));
+}
+
+bool has_dilatation(const input::Values& material) {
+  const double* ratio = material.number("Poisson's Ratio");
+  const std::string* word = material.text("Elastic Model");
+  if (ratio == nullptr || word == nullptr) return false;
+  const auto model = input::value_of(elastic_models, *word);
+  return exact_ratio(model, *ratio) != materials::bond_based_poissons_ratio(model);
 }
 
 }  // namespace perimorph::cases

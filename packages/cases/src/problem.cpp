@@ -39,17 +39,20 @@ void check_numbers(const Case& input, const model::Problem<dim>& problem) {
 template <int dim>
 model::Problem<dim> make_problem(const Case& input) {
   const Material& material = input.material;
-  const auto c0 = materials::calibrate<dim>(material.elastic_model, material.youngs_modulus,
+  const double ratio = materials::dilatational_ratio(material.elastic_model, material.poissons_ratio);
+  const auto c0 = materials::calibrate<dim>(material.elastic_model, material.youngs_modulus, material.poissons_ratio,
                                             input.peridynamics.characteristic_length, input.peridynamics.horizon);
   double critical_stretch = std::numeric_limits<double>::infinity();
   if (material.critical_stretch) critical_stretch = *material.critical_stretch;
-  if (material.fracture_energy) critical_stretch = materials::critical_stretch<dim>(c0, *material.fracture_energy);
+  if (material.fracture_energy)
+    critical_stretch = materials::critical_stretch<dim>(c0, *material.fracture_energy, ratio);
 
   model::Problem<dim> problem{
       materials::elasticity_tensor<dim>(material.elastic_model, material.youngs_modulus, material.poissons_ratio),
+      ratio,
       c0,
       critical_stretch,
-      materials::fracture_energy<dim>(c0, critical_stretch),
+      materials::fracture_energy<dim>(c0, critical_stretch, ratio),
       {},
       facets_of<dim>(input.pre_cracks),
       input.boundary_conditions.displacements,

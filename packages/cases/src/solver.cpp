@@ -34,8 +34,10 @@ void declare(const input::Section& decisive, Solver& solver, model::NumericalOpt
       "conjugate gradients take up to twice the time in three dimensions. For what would not fit otherwise.");
   section.choice(
       "Preconditioner Matrix", numerical.preconditioner_matrix, preconditioner_matrices,
-      "What the multigrid preconditioner is built from: \"Coupled\" is the whole stiffness; \"Short-Range\" leaves out "
-      "all bonds beyond the cut-off and stiffens the others: far fewer entries, a few more iterations.");
+      "What the multigrid preconditioner is built from: \"Coupled\" is the whole stiffness, but for what the "
+      "dilatation "
+      "adds; \"Short-Range\" leaves out all bonds beyond the cut-off and stiffens the others: far fewer entries, a few "
+      "more iterations.");
   section.optional(
       "Short-Range Cut-Off", solver.short_range_cut_off, cut_off, between(0., 1.),
       fmt::format("Longest bond in the short-range matrix, in horizons [-]; {} in two dimensions and {} in three if "
@@ -64,6 +66,16 @@ void declare(const input::Section& decisive, Solver& solver, model::NumericalOpt
       "MueLu", numerical.solver.muelu,
       "Any parameters of MueLu, passed on as they are; they override the program's own. The W-cycle and its smoother "
       "are the program's.");
+}
+
+void check_solver(const input::Values& section, bool has_dilatation) {
+  const std::string* word = section.text("Operator");
+  if (!has_dilatation || word == nullptr || input::value_of(operator_forms, *word) != OperatorForm::crs) return;
+  section.mistake(
+      "Operator",
+      "found \"CRS\"; with this Poisson's ratio allowed is \"Matrix-Free\" or \"On-the-Fly\": through the "
+      "dilatation at its ends a bond couples points two horizons apart, which would make four to eight times "
+      "as many entries");
 }
 
 }  // namespace perimorph::cases

@@ -31,8 +31,7 @@ discretization::TopologyOptions<dim> topology_options(const Problem<dim>& proble
 }
 
 operators::SystemOptions system_options(const NumericalOptions& options) {
-  return {options.peridynamic_stiffness, options.operator_form, options.preconditioner_matrix,
-          options.short_range_cut_off};
+  return {options.operator_form, options.preconditioner_matrix, options.short_range_cut_off};
 }
 
 }  // namespace
@@ -46,7 +45,9 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       profile_(profile),
       topology_(comm, mesh, topology_options(problem, options)),
       dirichlet_(*comm, mesh, problem.displacements),
-      system_(*comm, topology_, dirichlet_, problem.loads, problem.e0, system_options(options), profile),
+      system_(*comm, topology_, dirichlet_, problem.loads,
+              {problem.e0, options.peridynamic_stiffness, dim * problem.dilatational_ratio / (2 * (dim + 2))},
+              system_options(options), profile),
       equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
                    options.tolerance, options.damage_tolerance);
@@ -148,7 +149,7 @@ std::string Body<dim>::reason_for(const std::string& trouble) const {
     return fmt::format("no equilibrium exists: {} is free, and a load of ({:.6g}) acts on it", description_of(free[0]),
                        fmt::join(free[0].load, ", "));
   }
-  const auto& u = system_.displacement_at_points();
+  const auto& u = system_.at_points().displacement;
   const auto free = free_without(topology_.bonds().overstretched(u, problem_.critical_stretch, topology_.classes()));
   if (free.empty()) return trouble;
   return fmt::format(
@@ -161,9 +162,16 @@ GlobalId Body<dim>::break_bonds() {
   const auto timer = profile_.measure(Phase::bonds);
   if (std::isinf(problem_.critical_stretch)) return 0;
   PERIMORPH_ASSERT(system_.has_forces(), "nothing has been solved for load factor {}", state_.load_factor);
-  const auto change = bonds_that_break(*comm_, model(), system_.displacement_at_points(), topology_.classes(),
-                                       {problem_.critical_stretch, options_.breaking_fraction});
-  publish(change);
+  auto change = bonds_that_break(*comm_, model(), system_.at_points(), topology_.classes(),
+                                 {problem_.critical_stretch, options_.breaking_fraction});
+  if (change.n_broken > 0 && model().has_dilatation()) {
+    const double before = elastic_energy();
+    publish(change);
+    system_.evaluate(displacement());
+    change.energy = before - elastic_energy();  // part of it was not the bonds' own
+  } else {
+    publish(change);
+  }
   state_.take(change);
   return change.n_broken;
 }
@@ -213,11 +221,16 @@ void Body<dim>::renew_forces() {
 }
 
 template <int dim>
-Energies Body<dim>::energies() const {
+double Body<dim>::elastic_energy() const {
   const auto& force = system_.internal_force();
   double elastic = 0.;
   for (std::size_t i = 0; i < force.size(); ++i) elastic = std::fma(0.5 * force[i], state_.displacement[i], elastic);
-  return {base::sum(*comm_, elastic), state_.energies.dissipated, state_.energies.external_work};
+  return base::sum(*comm_, elastic);
+}
+
+template <int dim>
+Energies Body<dim>::energies() const {
+  return {elastic_energy(), state_.energies.dissipated, state_.energies.external_work};
 }
 
 template <int dim>

@@ -30,19 +30,19 @@ double breaking_stretch(const base::Comm& comm, const bonds::BondFamilies<dim>& 
 
 template <int dim>
 bonds::BondChange bonds_that_break(const base::Comm& comm, const operators::CoupledModel<dim>& model,
-                                   const std::vector<base::Point<dim>>& displacement_at_points,
+                                   const operators::PointFields<dim>& at_points,
                                    const std::vector<morphing::ElementClass>& classes, const BreakingRule& rule) {
   PERIMORPH_ASSERT(rule.critical_stretch > 0. && rule.fraction > 0. && rule.fraction <= 1.,
                    "critical stretch {}, share {}", rule.critical_stretch, rule.fraction);
-  PERIMORPH_ASSERT(static_cast<int>(displacement_at_points.size()) == model.points.size() &&
+  PERIMORPH_ASSERT(static_cast<int>(at_points.displacement.size()) == model.points.size() &&
                        static_cast<int>(classes.size()) == model.mesh.n_elements(),
-                   "displacements at {} of {} points, {} classes", displacement_at_points.size(), model.points.size(),
+                   "displacements at {} of {} points, {} classes", at_points.displacement.size(), model.points.size(),
                    classes.size());
   const auto& bonds = model.bonds;
-  const double stretch = breaking_stretch(comm, bonds, displacement_at_points, classes, rule);
+  const double stretch = breaking_stretch(comm, bonds, at_points.displacement, classes, rule);
   bonds::BondChange change;
-  change.broken = bonds.overstretched(displacement_at_points, stretch, classes);
-  change.energy = base::sum(comm, operators::bond_energy(model, change.broken, displacement_at_points));
+  change.broken = bonds.overstretched(at_points.displacement, stretch, classes);
+  change.energy = base::sum(comm, operators::bond_energy(model, change.broken, at_points));
   const auto is_counted_here = [&](bonds::BondId b) {
     return bonds.bond(b).first_element < model.mesh.n_owned_elements;
   };
@@ -53,7 +53,7 @@ bonds::BondChange bonds_that_break(const base::Comm& comm, const operators::Coup
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                    \
   template bonds::BondChange bonds_that_break(const base::Comm&, const operators::CoupledModel<dim>&, \
-                                              const std::vector<base::Point<dim>>&,                   \
+                                              const operators::PointFields<dim>&,                     \
                                               const std::vector<morphing::ElementClass>&, const BreakingRule&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -13,7 +13,7 @@ namespace {
 /// The largest stretch among the bonds that may break, of all ranks; 0 if none reaches the threshold. Collective.
 template <int dim>
 double largest_stretch(const base::Comm& comm, const Body<dim>& body, double factor, double threshold) {
-  auto u = body.system().displacement_at_points();
+  auto u = body.system().at_points().displacement;
   for (auto& one : u) one *= factor;
   const auto stretches = body.topology().bonds().overstretches(u, threshold, body.topology().classes());
   const auto largest = std::max_element(stretches.begin(), stretches.end());

@@ -8,6 +8,11 @@ namespace perimorph::materials {
 
 double bond_based_poissons_ratio(ElasticModel model) { return model == ElasticModel::plane_stress ? 1. / 3. : 1. / 4.; }
 
+double dilatational_ratio(ElasticModel model, double poissons_ratio) {
+  const double nu = poissons_ratio, beyond = nu - bond_based_poissons_ratio(model);
+  return model == ElasticModel::plane_stress ? 3. * beyond / (1. - nu) : 4. * beyond / (1. - 2. * nu);
+}
+
 template <int dim>
 base::Stiffness<dim> elasticity_tensor(ElasticModel model, double youngs_modulus, double poissons_ratio) {
   PERIMORPH_ASSERT((model == ElasticModel::three_dimensional) == (dim == 3), "dimension {}", dim);

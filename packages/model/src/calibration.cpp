@@ -16,6 +16,10 @@ namespace {
 constexpr std::array<double, 4> lengths = {0.2, 0.25, 1. / 3., 0.5};  // characteristic, in element sizes
 using Resistances = std::array<double, lengths.size()>;
 
+// The same over that without dilatation, in plane stress at nu = 0.1, 0.2, 1/3, in plane strain at 0.3, 0.4, 0.45.
+constexpr std::array<double, 6> dilatational_ratios = {-0.7 / 0.9, -0.5, 0., 0.5, 3., 8.};
+constexpr std::array<double, 6> of_dilatation = {0.93, 0.96, 1., 1.02, 1.05, 1.09};
+
 // The column "load" of the study "resistance" in tests/verification/fracture.csv.
 constexpr Resistances on_damage_dropped = {1.289, 1.105, 1.030, 0.993};
 constexpr Resistances on_damage_kept = {1.530, 1.350, 1.130, 0.986};
@@ -28,16 +32,22 @@ const Resistances& resistances_of(DiscontinuousElements discontinuous, Peridynam
   return is_kept ? on_damage_kept : on_damage_dropped;
 }
 
+/// Linear between given points, ascending; beyond, the value of the nearest.
+template <std::size_t n>
+double interpolate(const std::array<double, n>& at, const std::array<double, n>& values, double x) {
+  std::size_t i = 0;
+  while (i + 2 < n && x > at[i + 1]) ++i;
+  const double share = std::clamp((x - at[i]) / (at[i + 1] - at[i]), 0., 1.);
+  return (1. - share) * values[i] + share * values[i + 1];
+}
+
 }  // namespace
 
 double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
-                          double characteristic_length) {
+                          double characteristic_length, double dilatational_ratio) {
   PERIMORPH_ASSERT(characteristic_length > 0., "a characteristic length of {} elements", characteristic_length);
-  const Resistances& measured = resistances_of(discontinuous, stiffness);
-  std::size_t i = 0;
-  while (i + 2 < lengths.size() && characteristic_length > lengths[i + 1]) ++i;
-  const double share = std::clamp((characteristic_length - lengths[i]) / (lengths[i + 1] - lengths[i]), 0., 1.);
-  return (1. - share) * measured[i] + share * measured[i + 1];
+  return interpolate(lengths, resistances_of(discontinuous, stiffness), characteristic_length) *
+         interpolate(dilatational_ratios, of_dilatation, dilatational_ratio);
 }
 
 template <int dim>
@@ -78,8 +88,9 @@ bool calibrate_to_mesh(Problem<dim>& problem, const NumericalOptions& options, d
   PERIMORPH_ASSERT(element_size > 0., "elements of size {}", element_size);
   const bool is_calibrated = is_calibrated_to_mesh(problem.calibration, dim, options.points_per_direction);
   if (!is_calibrated || std::isinf(problem.critical_stretch)) return false;
-  const double resistance = lattice_resistance(options.discontinuous, options.peridynamic_stiffness,
-                                               problem.micromodulus.characteristic_length / element_size);
+  const double resistance =
+      lattice_resistance(options.discontinuous, options.peridynamic_stiffness,
+                         problem.micromodulus.characteristic_length / element_size, problem.dilatational_ratio);
   if (problem.is_stretch_given) {
     problem.fracture_energy *= resistance * resistance;
   } else {

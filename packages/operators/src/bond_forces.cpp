@@ -1,5 +1,6 @@
 #include "perimorph/operators/bond_forces.hpp"
 
+#include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +23,98 @@ auto first_row(const RowPair& rows) { return rows.head<n_lanes>(); }
 auto second_row(const RowPair& rows) { return rows.tail<n_lanes>(); }
 int count_bits(unsigned mask) { return __builtin_popcount(mask); }
 
+/// c |xi|^4 of a bond, [force length].
+template <int dim>
+double weight_of(const CoupledModel<dim>& model, const bonds::Bond<dim>& bond) {
+  const double squared_length = bond.xi.squaredNorm();
+  return model.bonds.stiffness(bond) * squared_length * squared_length;
+}
+
+template <int dim>
+RowPair squared(const std::array<RowPair, dim>& xi) {
+  RowPair sum = RowPair::Zero();
+  for (int c = 0; c < dim; ++c) sum += xi[c] * xi[c];
+  return sum;
+}
+
+/// Adds to the first packet's points what two rows of bonds have summed up.
+void add_rows(const RowPair& sum, double* at_points) {
+  at_points[0] += first_row(sum).sum();
+  at_points[1] += second_row(sum).sum();
+}
+/// The same to the second packet's.
+void add_columns(const RowPair& sum, double* at_points) {
+  Eigen::Map<Lanes>(at_points) += first_row(sum) + second_row(sum);
+}
+
+/// Forces of the bonds on both ends.
+template <int dim, bool dilates>
+class SumOfForces {
+ public:
+  /// @param forces per packet: (dim, 4); @param stretches p, per packet: (4), if it dilates
+  SumOfForces(double* forces, const double* stretches) : forces_(forces), stretches_(stretches) {}
+
+  void start(std::size_t a) {
+    for (int rows = 0; rows < n_lanes / 2; ++rows) {
+      for (int c = 0; c < dim; ++c) on_a_[rows][c].setZero();
+      if constexpr (dilates) p_a_[rows] = first_ends(stretches_ + a * n_lanes + 2 * rows);
+    }
+  }
+  void start_block(std::size_t b) {
+    for (int c = 0; c < dim; ++c) on_b_[c].setZero();
+    if constexpr (dilates) p_b_ = twice(stretches_ + b * n_lanes);
+  }
+  void add(int rows, const std::array<RowPair, dim>& xi, RowPair elongation, const RowPair& stiffness) {
+    if constexpr (dilates) elongation += squared<dim>(xi) * (p_a_[rows] + p_b_);
+    const RowPair tension = elongation * stiffness;
+    for (int c = 0; c < dim; ++c) {
+      on_a_[rows][c] -= tension * xi[c];
+      on_b_[c] += tension * xi[c];
+    }
+  }
+  void end_block(std::size_t b) {
+    for (int c = 0; c < dim; ++c) add_columns(on_b_[c], forces_ + (b * dim + c) * n_lanes);
+  }
+  void end(std::size_t a) {
+    for (int rows = 0; rows < n_lanes / 2; ++rows) {
+      for (int c = 0; c < dim; ++c) add_rows(on_a_[rows][c], forces_ + (a * dim + c) * n_lanes + 2 * rows);
+    }
+  }
+
+ private:
+  double* forces_;
+  const double* stretches_;
+  std::array<std::array<RowPair, dim>, n_lanes / 2> on_a_;
+  std::array<RowPair, dim> on_b_;
+  std::array<RowPair, n_lanes / 2> p_a_;
+  RowPair p_b_;
+};
+
+/// S at both ends.
+template <int dim>
+class SumOfElongations {
+ public:
+  /// @param sums per packet: (4), [force length]
+  explicit SumOfElongations(double* sums) : sums_(sums) {}
+
+  void start(std::size_t) { at_a_.fill(RowPair::Zero()); }
+  void start_block(std::size_t) { at_b_.setZero(); }
+  void add(int rows, const std::array<RowPair, dim>& xi, const RowPair& elongation, const RowPair& stiffness) {
+    const RowPair weighted = squared<dim>(xi) * stiffness * elongation;
+    at_a_[rows] += weighted;
+    at_b_ += weighted;
+  }
+  void end_block(std::size_t b) { add_columns(at_b_, sums_ + b * n_lanes); }
+  void end(std::size_t a) {
+    for (int rows = 0; rows < n_lanes / 2; ++rows) add_rows(at_a_[rows], sums_ + a * n_lanes + 2 * rows);
+  }
+
+ private:
+  double* sums_;
+  std::array<RowPair, n_lanes / 2> at_a_;
+  RowPair at_b_;
+};
+
 }  // namespace
 
 template <int dim>
@@ -31,6 +124,7 @@ BondForces<dim>::BondForces(const CoupledModel<dim>& model)
       first_packet_(model.mesh.n_elements(), -1) {
   make_packets();
   make_blocks();
+  if (model.has_dilatation()) make_dilatation();
 }
 
 /// The points of the elements that have bonds, in fours.
@@ -107,6 +201,34 @@ void BondForces<dim>::make_blocks() {
   first_bond_.push_back(stiffness_.size());
 }
 
+template <int dim>
+void BondForces<dim>::make_dilatation() {
+  constexpr int most_lanes = (elements::max_points + n_lanes - 1) / n_lanes * n_lanes;
+  std::vector<base::GlobalId> ids;
+  std::size_t n_owned = 0;
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+    if (first_packet_[e] < 0) continue;
+    for (int q = 0; q < model_.points.count(e); q += n_lanes) {
+      for (int lane = 0; lane < n_lanes; ++lane) ids.push_back(model_.mesh.element_ids[e] * most_lanes + q + lane);
+    }
+    if (e < model_.mesh.n_owned_elements) n_owned = ids.size();
+  }
+  dilatation_.emplace(model_.dofs.owned_dofs()->getComm(), ids, n_owned, model_.elasticity.dilatation_factor());
+  stretches_.resize(ids.size());
+  model_.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
+    if (bond.is_broken) return;
+    const double weight = weight_of(model_, bond);
+    dilatation_->add(lane_of(bond.first_element, bond.first_end), weight);
+    dilatation_->add(lane_of(bond.second_element, bond.second_end), weight);
+  });
+}
+
+/// Where a point stands among those of the packets.
+template <int dim>
+std::size_t BondForces<dim>::lane_of(int element, int q) const {
+  return static_cast<std::size_t>(first_packet_[element]) * n_lanes + q;
+}
+
 /// Where the shape functions at four points of a reference element stand in shapes_, (n_corners, 4).
 template <int dim>
 std::size_t BondForces<dim>::shapes_of(const elements::ReferenceElement<dim>& reference, int first_point) {
@@ -127,7 +249,13 @@ void BondForces<dim>::add_tangent_product(base::ConstField x, base::Field force)
   PERIMORPH_ASSERT(x.size() == n && force.size() == n, "{} displacements and {} forces on {} degrees of freedom",
                    x.size(), force.size(), n);
   gather(x.getRawPtr());
-  model_.bonds.computes_stiffness() ? pull<true>() : pull<false>();
+  std::fill(forces_.begin(), forces_.end(), 0.);
+  if (dilatation_) {
+    dilate();
+    pass_over(SumOfForces<dim, true>(forces_.data(), stretches_.data()));
+  } else {
+    pass_over(SumOfForces<dim, false>(forces_.data(), nullptr));
+  }
   spread(force.getRawPtr());
 }
 
@@ -147,69 +275,84 @@ void BondForces<dim>::gather(const double* u) const {
   }
 }
 
-/// Two rows of a block at once, each of the bonds from one point of the first packet to the four of the second.
+/// Sums up over all bonds, two rows of a block at once, each of the bonds from one point of the first packet to the
+/// four of the second.
 template <int dim>
-template <bool on_the_fly>
-void BondForces<dim>::pull() const {
+template <bool on_the_fly, class Sum>
+void BondForces<dim>::pass_over_blocks(Sum& sum) const {
   const double length = model_.bonds.micromodulus().characteristic_length;
-  std::fill(forces_.begin(), forces_.end(), 0.);
   const float* stiffness = stiffness_.data();
   for (std::size_t a = 0; a < packets_.size(); ++a) {
-    std::array<std::array<RowPair, dim>, n_lanes / 2> x_a, u_a, on_a;
+    std::array<std::array<RowPair, dim>, n_lanes / 2> x_a, u_a;
     std::array<RowPair, n_lanes / 2> alpha_a, weights_a;
     for (int rows = 0; rows < n_lanes / 2; ++rows) {
       for (int c = 0; c < dim; ++c) {
         x_a[rows][c] = first_ends(positions_.data() + (a * dim + c) * n_lanes + 2 * rows);
         u_a[rows][c] = first_ends(displacements_.data() + (a * dim + c) * n_lanes + 2 * rows);
-        on_a[rows][c].setZero();
       }
       alpha_a[rows] = first_ends(alpha_.data() + a * n_lanes + 2 * rows);
       if constexpr (on_the_fly) weights_a[rows] = first_ends(weights_.data() + a * n_lanes + 2 * rows);
     }
+    sum.start(a);
     for (std::size_t block = first_block_[a]; block < first_block_[a + 1]; ++block) {
       const std::size_t b = second_[block];
-      std::array<RowPair, dim> x, u, on_b;
+      std::array<RowPair, dim> x, u;
       for (int c = 0; c < dim; ++c) {
         x[c] = twice(positions_.data() + (b * dim + c) * n_lanes);
         u[c] = twice(displacements_.data() + (b * dim + c) * n_lanes);
-        on_b[c].setZero();
       }
       const RowPair alpha = twice(alpha_.data() + b * n_lanes);
+      sum.start_block(b);
       for (int rows = 0; rows < n_lanes / 2; ++rows) {
         const unsigned mask = masks_[block] >> (rows * 2 * n_lanes) & 255u;
         std::array<RowPair, dim> xi;
-        RowPair pull = RowPair::Zero();
+        RowPair elongation = RowPair::Zero();
         for (int c = 0; c < dim; ++c) {
           xi[c] = x[c] - x_a[rows][c];
-          pull += xi[c] * (u[c] - u_a[rows][c]);
+          elongation += xi[c] * (u[c] - u_a[rows][c]);
         }
         RowPair k;
         if constexpr (on_the_fly) {
-          RowPair squared = RowPair::Zero();
-          for (int c = 0; c < dim; ++c) squared += xi[c] * xi[c];
-          k = keep(mask, materials::decay(squared, length)) * (twice(weights_.data() + b * n_lanes) * weights_a[rows]);
+          k = keep(mask, materials::decay(squared<dim>(xi), length)) *
+              (twice(weights_.data() + b * n_lanes) * weights_a[rows]);
         } else {
           k = expand(mask, stiffness);
           stiffness += count_bits(mask);
         }
-        pull *= k * (alpha + alpha_a[rows]);
-        for (int c = 0; c < dim; ++c) {
-          on_a[rows][c] -= pull * xi[c];
-          on_b[c] += pull * xi[c];
-        }
+        sum.add(rows, xi, elongation, k * (alpha + alpha_a[rows]));
       }
-      for (int c = 0; c < dim; ++c) {
-        Eigen::Map<Lanes>(forces_.data() + (b * dim + c) * n_lanes) += first_row(on_b[c]) + second_row(on_b[c]);
-      }
+      sum.end_block(b);
     }
-    for (int rows = 0; rows < n_lanes / 2; ++rows) {
-      for (int c = 0; c < dim; ++c) {
-        double* force = forces_.data() + (a * dim + c) * n_lanes + 2 * rows;
-        force[0] += first_row(on_a[rows][c]).sum();
-        force[1] += second_row(on_a[rows][c]).sum();
-      }
-    }
+    sum.end(a);
   }
+}
+
+template <int dim>
+template <class Sum>
+void BondForces<dim>::pass_over(Sum sum) const {
+  model_.bonds.computes_stiffness() ? pass_over_blocks<true>(sum) : pass_over_blocks<false>(sum);
+}
+
+/// From displacements to p at the points.
+template <int dim>
+void BondForces<dim>::dilate() const {
+  std::fill(stretches_.begin(), stretches_.end(), 0.);
+  pass_over(SumOfElongations<dim>(stretches_.data()));
+  dilatation_->to_stretch(stretches_);
+}
+
+template <int dim>
+std::vector<double> BondForces<dim>::dilatational_stretch(base::ConstField u) const {
+  if (!dilatation_) return {};
+  gather(u.getRawPtr());
+  dilate();
+  std::vector<double> at_points(model_.points.size(), 0.);
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+    if (first_packet_[e] < 0) continue;
+    std::copy_n(stretches_.begin() + static_cast<std::ptrdiff_t>(lane_of(e, 0)), model_.points.count(e),
+                at_points.begin() + model_.points.first(e));
+  }
+  return at_points;
 }
 
 template <int dim>
@@ -234,6 +377,11 @@ void BondForces<dim>::take(const bonds::BondChange& change) {
                    change.broken.back(), model_.bonds.n_bonds());
   for (const auto id : change.broken) {
     const auto bond = model_.bonds.bond(id);
+    if (dilatation_) {
+      const double weight = weight_of(model_, bond);
+      dilatation_->remove(lane_of(bond.first_element, bond.first_end), weight);
+      dilatation_->remove(lane_of(bond.second_element, bond.second_end), weight);
+    }
     const int i = bond.first_end, j = bond.second_end;
     const int a = first_packet_[bond.first_element] + i / n_lanes;
     const int b = first_packet_[bond.second_element] + j / n_lanes;
@@ -252,7 +400,8 @@ template <int dim>
 std::size_t BondForces<dim>::bytes() const {
   const auto size = [](const auto& vector) { return vector.size() * sizeof(vector[0]); };
   return size(packets_) + size(positions_) + size(alpha_) + size(weights_) + size(first_packet_) + size(first_block_) +
-         size(first_bond_) + size(second_) + size(masks_) + size(stiffness_) + size(displacements_) + size(forces_);
+         size(first_bond_) + size(second_) + size(masks_) + size(stiffness_) + size(displacements_) + size(forces_) +
+         size(stretches_) + (dilatation_ ? dilatation_->bytes() : 0);
 }
 
 template class BondForces<2>;

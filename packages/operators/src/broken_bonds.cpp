@@ -24,9 +24,9 @@ void spread(const CoupledModel<dim>& model, int element, int q, const Point<dim>
 
 template <int dim>
 void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std::size_t>& broken,
-                          const std::vector<Point<dim>>& at_points, std::vector<double>& force) {
-  PERIMORPH_ASSERT(static_cast<int>(at_points.size()) == model.points.size(), "displacements at {} of {} points",
-                   at_points.size(), model.points.size());
+                          const PointFields<dim>& at_points, std::vector<double>& force) {
+  PERIMORPH_ASSERT(static_cast<int>(at_points.displacement.size()) == model.points.size(),
+                   "displacements at {} of {} points", at_points.displacement.size(), model.points.size());
   PERIMORPH_ASSERT(static_cast<int>(force.size()) == model.dofs.n_owned_nodes() * dim, "{} forces on {} owned nodes",
                    force.size(), model.dofs.n_owned_nodes());
   for (const auto b : broken) {
@@ -39,9 +39,9 @@ void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std:
 
 template <int dim>
 double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t>& bonds,
-                   const std::vector<Point<dim>>& at_points) {
-  PERIMORPH_ASSERT(static_cast<int>(at_points.size()) == model.points.size(), "displacements at {} of {} points",
-                   at_points.size(), model.points.size());
+                   const PointFields<dim>& at_points) {
+  PERIMORPH_ASSERT(static_cast<int>(at_points.displacement.size()) == model.points.size(),
+                   "displacements at {} of {} points", at_points.displacement.size(), model.points.size());
   double energy = 0.;
   for (const auto b : bonds) {
     const auto bond = model.bonds.bond(b);
@@ -51,11 +51,11 @@ double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t
   return energy;
 }
 
-template void subtract_bond_forces<2>(const CoupledModel<2>&, const std::vector<std::size_t>&,
-                                      const std::vector<Point<2>>&, std::vector<double>&);
-template void subtract_bond_forces<3>(const CoupledModel<3>&, const std::vector<std::size_t>&,
-                                      const std::vector<Point<3>>&, std::vector<double>&);
-template double bond_energy<2>(const CoupledModel<2>&, const std::vector<std::size_t>&, const std::vector<Point<2>>&);
-template double bond_energy<3>(const CoupledModel<3>&, const std::vector<std::size_t>&, const std::vector<Point<3>>&);
+template void subtract_bond_forces<2>(const CoupledModel<2>&, const std::vector<std::size_t>&, const PointFields<2>&,
+                                      std::vector<double>&);
+template void subtract_bond_forces<3>(const CoupledModel<3>&, const std::vector<std::size_t>&, const PointFields<3>&,
+                                      std::vector<double>&);
+template double bond_energy<2>(const CoupledModel<2>&, const std::vector<std::size_t>&, const PointFields<2>&);
+template double bond_energy<3>(const CoupledModel<3>&, const std::vector<std::size_t>&, const PointFields<3>&);
 
 }  // namespace perimorph::operators

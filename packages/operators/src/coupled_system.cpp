@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "perimorph/base/errors.hpp"
-#include "perimorph/operators/bond_forces.hpp"
 #include "perimorph/operators/broken_bonds.hpp"
 #include "perimorph/operators/fields.hpp"
 #include "perimorph/operators/local_forces.hpp"
@@ -18,7 +17,7 @@ using base::Point;
 template <int dim>
 CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
                                   const discretization::Dirichlet<dim>& dirichlet,
-                                  const discretization::Loads<dim>& loads, const base::Stiffness<dim>& e0,
+                                  const discretization::Loads<dim>& loads, MorphedStiffness<dim> elasticity,
                                   SystemOptions options, base::Profile& profile)
     : comm_(comm),
       topology_(topology),
@@ -26,9 +25,11 @@ CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::
       load_data_(loads),
       options_(options),
       profile_(profile),
-      elasticity_(e0, options.peridynamic_stiffness) {
+      elasticity_(std::move(elasticity)) {
   PERIMORPH_ASSERT(options.preconditioner_matrix == PreconditionerMatrix::coupled || options.short_range_cut_off > 0.,
                    "short-range bonds up to {}", options.short_range_cut_off);
+  PERIMORPH_ASSERT(elasticity_.dilatation_factor() == 0. || options.operator_form != OperatorForm::crs,
+                   "a matrix with dilatation factor {}", elasticity_.dilatation_factor());
 }
 
 template <int dim>
@@ -45,7 +46,8 @@ void CoupledSystem<dim>::follow_morphing() {
 template <int dim>
 void CoupledSystem<dim>::make_terms(const Supports<dim>& supports) {
   anchors_ = Teuchos::rcp(new Anchors<dim>(supports.anchors));
-  terms_ = {Teuchos::rcp(new LocalForces<dim>(model())), Teuchos::rcp(new BondForces<dim>(model())), anchors_};
+  bond_forces_ = Teuchos::rcp(new BondForces<dim>(model()));
+  terms_ = {Teuchos::rcp(new LocalForces<dim>(model())), bond_forces_, anchors_};
   load_terms_ = {Teuchos::rcp(new LoadForces<dim>(model(), load_data_))};
 }
 
@@ -109,6 +111,7 @@ std::vector<int> CoupledSystem<dim>::take(const bonds::BondChange& change) {
   std::vector<int> changed;
   if (matrix_) changed = matrix_->take(change);
   if (short_range_) changed = short_range_->take(change);
+  if (elasticity_.dilatation_factor() != 0.) has_forces_ = false;
   if (has_forces_) subtract_bond_forces(model(), change.broken, at_points_, internal_);
   return changed;
 }
@@ -126,7 +129,7 @@ void CoupledSystem<dim>::evaluate(base::ConstField u) {
   PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) == space_->n_local(),
                    "{} displacements for {} degrees of freedom", u.size(), space_->n_local());
   const auto timer = profile_.measure(Phase::residual);
-  at_points_ = displacements_at_points(model(), u);
+  at_points_ = {displacements_at_points(model(), u), bond_forces_->dilatational_stretch(u)};
   internal_ = sum_of_forces(terms_, u);
   loads_ = sum_of_forces(load_terms_, u);
   for (double& load : loads_) load = -load;

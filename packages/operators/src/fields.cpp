@@ -32,11 +32,11 @@ void visit_local_part(const CoupledModel<dim>& model, int e, base::ConstField u,
 /// Calls visit(first end, second end, energy, stress) for each intact bond of a pair of elements, with the ends as
 /// numbers of points and the bond's share in each end's energy and stress times volume.
 template <int dim, class Visit>
-void visit_bonds(const CoupledModel<dim>& model, int p, const std::vector<Point<dim>>& u, Visit visit) {
+void visit_bonds(const CoupledModel<dim>& model, int p, const PointFields<dim>& at_points, Visit visit) {
   model.bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
     if (bond.is_broken) return;
-    const BondSpring<dim> spring(model, bond, u);
-    const base::Voigt<dim> stress = 0.5 * spring.stiffness * spring.elongation * elements::squared<dim>(spring.xi);
+    const BondSpring<dim> spring(model, bond, at_points);
+    const base::Voigt<dim> stress = 0.5 * spring.tension * elements::squared<dim>(spring.xi);
     visit(bond.first_point, bond.second_point, 0.5 * spring.energy(), stress);
   });
 }
@@ -52,11 +52,11 @@ void add_local_part(const CoupledModel<dim>& model, base::ConstField u, ElementF
 }
 
 template <int dim>
-void add_bonds_part(const CoupledModel<dim>& model, const std::vector<Point<dim>>& u, ElementFields<dim>& fields) {
+void add_bonds_part(const CoupledModel<dim>& model, const PointFields<dim>& at_points, ElementFields<dim>& fields) {
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     const auto [first, second] = model.bonds.pair(p);
     const int ends[] = {first, second};
-    visit_bonds(model, p, u, [&](int, int, double energy, const base::Voigt<dim>& stress) {
+    visit_bonds(model, p, at_points, [&](int, int, double energy, const base::Voigt<dim>& stress) {
       for (const int e : ends) {
         if (e >= model.mesh.n_owned_elements) continue;
         fields.energy[e] += energy;
@@ -89,9 +89,9 @@ std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, 
 
 template <int dim>
 ElementFields<dim> element_fields(const CoupledModel<dim>& model, base::ConstField u,
-                                  const std::vector<Point<dim>>& at_points) {
-  PERIMORPH_ASSERT(static_cast<int>(at_points.size()) == model.points.size(), "displacements at {} of {} points",
-                   at_points.size(), model.points.size());
+                                  const PointFields<dim>& at_points) {
+  PERIMORPH_ASSERT(static_cast<int>(at_points.displacement.size()) == model.points.size(),
+                   "displacements at {} of {} points", at_points.displacement.size(), model.points.size());
   const auto n = static_cast<std::size_t>(model.mesh.n_owned_elements);
   ElementFields<dim> fields{std::vector<double>(n, 0.), std::vector<base::Voigt<dim>>(n, base::Voigt<dim>::Zero())};
   add_local_part(model, u, fields);
@@ -108,11 +108,11 @@ ElementFields<dim> element_fields(const CoupledModel<dim>& model, base::ConstFie
 
 template <int dim>
 std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, int element, base::ConstField u,
-                                               const std::vector<Point<dim>>& at_points) {
+                                               const PointFields<dim>& at_points) {
   PERIMORPH_ASSERT(element >= 0 && element < model.mesh.n_owned_elements, "element {} of {} owned ones", element,
                    model.mesh.n_owned_elements);
-  PERIMORPH_ASSERT(static_cast<int>(at_points.size()) == model.points.size(), "displacements at {} of {} points",
-                   at_points.size(), model.points.size());
+  PERIMORPH_ASSERT(static_cast<int>(at_points.displacement.size()) == model.points.size(),
+                   "displacements at {} of {} points", at_points.displacement.size(), model.points.size());
   const int first = model.points.first(element), end = model.points.first(element + 1);
   std::vector<base::Voigt<dim>> stress(end - first, base::Voigt<dim>::Zero());
   for (const int p : model.bonds.pairs_of(element)) {
@@ -147,13 +147,13 @@ double largest_principal_strain(const CoupledModel<dim>& model, int element, bas
 template double largest_principal_strain<2>(const CoupledModel<2>&, int, base::ConstField);
 template double largest_principal_strain<3>(const CoupledModel<3>&, int, base::ConstField);
 
-template ElementFields<2> element_fields<2>(const CoupledModel<2>&, base::ConstField, const std::vector<Point<2>>&);
-template ElementFields<3> element_fields<3>(const CoupledModel<3>&, base::ConstField, const std::vector<Point<3>>&);
+template ElementFields<2> element_fields<2>(const CoupledModel<2>&, base::ConstField, const PointFields<2>&);
+template ElementFields<3> element_fields<3>(const CoupledModel<3>&, base::ConstField, const PointFields<3>&);
 
 template std::vector<base::Voigt<2>> stress_at_points<2>(const CoupledModel<2>&, int, base::ConstField,
-                                                         const std::vector<Point<2>>&);
+                                                         const PointFields<2>&);
 template std::vector<base::Voigt<3>> stress_at_points<3>(const CoupledModel<3>&, int, base::ConstField,
-                                                         const std::vector<Point<3>>&);
+                                                         const PointFields<3>&);
 
 template std::vector<Point<2>> displacements_at_points<2>(const CoupledModel<2>&, base::ConstField);
 template std::vector<Point<3>> displacements_at_points<3>(const CoupledModel<3>&, base::ConstField);

@@ -68,16 +68,28 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
   base::Stiffness<dim>* reduced = reduced_.data() + first_[element];
   std::fill_n(reduced, n_points, base::Stiffness<dim>::Zero());
   if (is_zero_[element]) return;
+  struct Volume {
+    base::Voigt<dim> t = base::Voigt<dim>::Zero();
+    double weighted = 0.;
+  };
+  std::vector<Volume> volumes(n_points);
   for (const int p : bonds.pairs_of(element)) {
     bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
       const auto v = elements::squared<dim>(bond.xi);
-      const base::Voigt<dim> scaled =
-          (0.25 * (alpha_[bond.first_point] + alpha_[bond.second_point]) * bonds.stiffness(bond)) * v;
-      if (bond.first_element == element) reduced[bond.first_end].noalias() += scaled * v.transpose();
-      if (bond.second_element == element) reduced[bond.second_end].noalias() += scaled * v.transpose();
+      const double stiffness = bonds.stiffness(bond), squared = bond.xi.squaredNorm();
+      const base::Voigt<dim> scaled = (0.25 * (alpha_[bond.first_point] + alpha_[bond.second_point]) * stiffness) * v;
+      const auto add_at = [&](int q) {
+        reduced[q].noalias() += scaled * v.transpose();
+        volumes[q].t += 2. * squared * scaled;
+        volumes[q].weighted += stiffness * squared * squared;
+      };
+      if (bond.first_element == element) add_at(bond.first_end);
+      if (bond.second_element == element) add_at(bond.second_end);
     });
   }
   for (int q = 0; q < n_points; ++q) {
+    const auto& [t, weighted] = volumes[q];
+    if (weighted > 0. && dilatation_factor_ != 0.) reduced[q] += dilatation_factor_ / weighted * t * t.transpose();
     reduced[q] = e0_ - reduced[q] / points.weight(points.first(element) + q);
     if (is_discontinuous) reduced[q] = positive_part<dim>(reduced[q]);
   }

@@ -90,7 +90,7 @@ struct PointRecord {
 template <int dim>
 std::vector<BondRecord> own_bonds(const Body<dim>& body) {
   const auto model = body.model();
-  const auto& u = body.system().displacement_at_points();
+  const auto& u = body.system().at_points().displacement;
   std::vector<BondRecord> records;
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     const auto [first, second] = model.bonds.pair(p);
@@ -116,7 +116,7 @@ std::vector<PointRecord<dim>> own_bonded_points(const Body<dim>& body) {
       const int point = model.points.first(e) + q;
       PointRecord<dim> record{model.points.global_id(e, q), {}, {}};
       Eigen::Map<Point<dim>>(record.position.data()) = model.points.position(point);
-      Eigen::Map<Point<dim>>(record.displacement.data()) = body.system().displacement_at_points()[point];
+      Eigen::Map<Point<dim>>(record.displacement.data()) = body.system().at_points().displacement[point];
       records.push_back(record);
     }
   }

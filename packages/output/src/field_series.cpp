@@ -127,9 +127,8 @@ void FieldSeries<dim>::write(const Body<dim>& body, std::vector<double> globals)
 
   io::ExodusStep step{body.load_factor(), std::move(globals), {}, {}};
   for (int c = 0; c < dim; ++c) step.nodal.push_back(on_nodes(body, c));
-  const View<dim> view{
-      body, body.model(),
-      operators::element_fields(body.model(), body.displacement(), body.system().displacement_at_points())};
+  const View<dim> view{body, body.model(),
+                       operators::element_fields(body.model(), body.displacement(), body.system().at_points())};
   for (const auto& variable : element_variables<dim>()) {
     std::vector<double> own;
     for (int e = 0; e < body.mesh().n_owned_elements; ++e) own.push_back(variable.value(view, e));

@@ -19,8 +19,7 @@ namespace {
 template <int dim>
 base::Voigt<dim> interpolated_stress(const Body<dim>& body, const elements::Location& at) {
   const auto model = body.model();
-  const auto stress =
-      operators::stress_at_points(model, at.element, body.displacement(), body.system().displacement_at_points());
+  const auto stress = operators::stress_at_points(model, at.element, body.displacement(), body.system().at_points());
   const auto n = static_cast<int>(stress.size());
   PERIMORPH_ASSERT(n == at.shape.size(), "stress at {} points of an element with {} corners", n, at.shape.size());
   Eigen::MatrixXd shapes(n, n), values(n, base::n_voigt<dim>);

@@ -26,10 +26,10 @@ struct Bonded {
 
   Bonded(const mesh::Mesh<3>& whole, const Cracks& pre_cracks)
       : mesh(mesh::distribute(*Tpetra::getDefaultComm(), whole, horizon)),
-        bonds(
-            mesh, points, mesh::active_elements(mesh),
-            materials::calibrate<3>(materials::ElasticModel::three_dimensional, 1000., characteristic_length, horizon),
-            pre_cracks) {
+        bonds(mesh, points, mesh::active_elements(mesh),
+              materials::calibrate<3>(materials::ElasticModel::three_dimensional, 1000., 0.25, characteristic_length,
+                                      horizon),
+              pre_cracks) {
     bonds.extend(alpha.add({morphing::Zone<3>::everything()}));
   }
 

@@ -15,6 +15,7 @@ Case good() {
   Case input;
   input.dimension = 2;
   input.numerical.points_per_direction = 2;
+  input.material.poissons_ratio = 1. / 3.;
   input.material.fracture_energy = 0.1;
   input.material.calibration = model::Calibration::mesh_consistent;
   input.peridynamics.characteristic_length = 1. / 3.;
@@ -31,6 +32,16 @@ Case good() {
 }
 
 TEST(Advice, HasNothingToSayOfAGoodCase) { EXPECT_THAT(advice(good(), 1.), IsEmpty()); }
+
+TEST(Advice, AVolumeThatHardlyChangesWantsASmoothRim) {
+  Case input = good();
+  input.material.poissons_ratio = 0.45;
+  EXPECT_THAT(advice(input, 1.), IsEmpty());
+  input.material.elastic_model = materials::ElasticModel::plane_strain;
+  EXPECT_THAT(advice(input, 1.), ElementsAre(StartsWith("/Morphing/Function: where alpha begins and ends to fall")));
+  input.numerical.blending_function = morphing::BlendingFunction::cubic;
+  EXPECT_THAT(advice(input, 1.), IsEmpty());
+}
 
 TEST(Advice, HasNothingToSayOfABodyWithoutZones) {
   Case input = good();

@@ -51,6 +51,16 @@ TEST(ElasticityTensor, AtTheBondBasedRatioHasTheSymmetryOfCentralForces) {
   EXPECT_NEAR(c(0, 1), c(3, 3), rounding);
 }
 
+TEST(DilatationalRatio, IsWhatCentralForcesLack) {
+  for (const auto model : {ElasticModel::plane_stress, ElasticModel::plane_strain}) {
+    const auto c = elasticity_tensor<2>(model, e, nu);
+    EXPECT_NEAR(dilatational_ratio(model, nu), (c(0, 1) - c(2, 2)) / c(2, 2), rounding);
+    EXPECT_EQ(dilatational_ratio(model, bond_based_poissons_ratio(model)), 0.);
+  }
+  const auto c = elasticity_tensor<3>(ElasticModel::three_dimensional, e, 0.1);
+  EXPECT_NEAR(dilatational_ratio(ElasticModel::three_dimensional, 0.1), (c(0, 1) - c(3, 3)) / c(3, 3), rounding);
+}
+
 TEST(ElasticityTensor, RefusesModuliThatNoSolidHas) {
   EXPECT_THROW(elasticity_tensor<2>(ElasticModel::three_dimensional, e, nu), base::Bug);
   EXPECT_THROW(elasticity_tensor<2>(ElasticModel::plane_stress, -e, nu), base::Bug);

@@ -55,7 +55,7 @@ TEST(Calibration, ReproducesTheElasticityTensorInThePlane) {
   for (const auto model : {ElasticModel::plane_stress, ElasticModel::plane_strain}) {
     const auto expected = elasticity_tensor<2>(model, 1000., bond_based_poissons_ratio(model));
     for (const double l : {0.2, 1., 10.}) {
-      const Micromodulus c0 = calibrate<2>(model, 1000., l, 3.);
+      const Micromodulus c0 = calibrate<2>(model, 1000., bond_based_poissons_ratio(model), l, 3.);
       const double radial = integral(0., 3., [&](double r) { return c0(r) * std::pow(r, 5); });
       const auto component = [&](int cosines, int sines) {
         return 0.5 * radial * integral(0., 2. * pi, [&](double phi) {
@@ -72,7 +72,7 @@ TEST(Calibration, ReproducesTheElasticityTensorInThePlane) {
 TEST(Calibration, ReproducesTheElasticityTensorInSpace) {
   const auto model = ElasticModel::three_dimensional;
   const auto expected = elasticity_tensor<3>(model, 1000., bond_based_poissons_ratio(model));
-  const Micromodulus c0 = calibrate<3>(model, 1000., 0.5, 3.);
+  const Micromodulus c0 = calibrate<3>(model, 1000., 0.25, 0.5, 3.);
   const double radial = integral(0., 3., [&](double r) { return c0(r) * std::pow(r, 6); });
   const double zzzz = 2. * pi * integral(0., pi, [](double t) { return std::pow(std::cos(t), 4) * std::sin(t); });
   const double zzxx =
@@ -81,16 +81,36 @@ TEST(Calibration, ReproducesTheElasticityTensorInSpace) {
   EXPECT_NEAR(0.5 * radial * zzxx, expected(0, 1), simpson * expected(0, 1));
 }
 
+TEST(Calibration, GivesBondsTheShearModulusWhateverThePoissonsRatio) {
+  for (const double ratio : {-0.3, 0.2, 0.4}) {
+    const double of_mu = 1. / (1. + ratio);  // mu over that of a ratio of 0, at the same Young's modulus
+    const auto tau0 = [](ElasticModel model, double nu) { return calibrate<2>(model, 1000., nu, 0.3, 3.).tau0; };
+    EXPECT_NEAR(tau0(ElasticModel::plane_stress, ratio) / tau0(ElasticModel::plane_stress, 0.), of_mu, 1e-12);
+    EXPECT_NEAR(tau0(ElasticModel::plane_strain, ratio) / tau0(ElasticModel::plane_stress, 0.), of_mu, 1e-12);
+  }
+}
+
+/// G_c = s_c^2 mu l (a + kappa / mu j), with a and j that depend on the horizon over l alone.
+TEST(FractureEnergy, CountsWhatTheDilatationStores) {
+  const auto plane = calibrate<2>(ElasticModel::plane_stress, 2.4, 0.2, 1., 12.);  // mu = 1
+  EXPECT_NEAR(fracture_energy<2>(plane, 1., 0.), 14.88, 0.005);
+  EXPECT_NEAR(fracture_energy<2>(plane, 1., 1.) - fracture_energy<2>(plane, 1., 0.), 2.38, 0.005);
+  const auto solid = calibrate<3>(ElasticModel::three_dimensional, 2.4, 0.2, 1., 12.);
+  EXPECT_NEAR(fracture_energy<3>(solid, 1., 0.), 25.05, 0.005);
+  EXPECT_NEAR(fracture_energy<3>(solid, 1., -0.5) - fracture_energy<3>(solid, 1., 0.), -0.5 * 4.60, 0.005);
+}
+
 TEST(FractureEnergy, AndCriticalStretchAreInverse) {
-  const Micromodulus plane = calibrate<2>(ElasticModel::plane_strain, 1000., 0.3, 1.5);
+  EXPECT_NEAR(critical_stretch<2>({2., 0.3, 1.5}, fracture_energy<2>({2., 0.3, 1.5}, 0.07, 2.), 2.), 0.07, 1e-15);
+  const Micromodulus plane = calibrate<2>(ElasticModel::plane_strain, 1000., 0.25, 0.3, 1.5);
   EXPECT_NEAR(critical_stretch<2>(plane, fracture_energy<2>(plane, 0.07)), 0.07, 1e-15);
-  const Micromodulus solid = calibrate<3>(ElasticModel::three_dimensional, 1000., 0.3, 1.5);
+  const Micromodulus solid = calibrate<3>(ElasticModel::three_dimensional, 1000., 0.25, 0.3, 1.5);
   EXPECT_NEAR(critical_stretch<3>(solid, fracture_energy<3>(solid, 0.07)), 0.07, 1e-15);
 }
 
 /// Silling and Askari 2005: all bonds that cross a line, 1/2 c0 s^2 r^4 each (a bond's force here is c0 (xi.eta) xi).
 TEST(FractureEnergy, IsThatOfAllBondsAcrossALine) {
-  const Micromodulus c0 = calibrate<2>(ElasticModel::plane_stress, 1000., 0.4, 2.);
+  const Micromodulus c0 = calibrate<2>(ElasticModel::plane_stress, 1000., 1. / 3., 0.4, 2.);
   const double s = 0.03;
   // A point at height z below the line; bonds longer than z, within an angle acos(z/r) of its normal.
   const double expected = integral(0., 2., [&](double z) {
@@ -104,9 +124,9 @@ TEST(FractureEnergy, IsThatOfAllBondsAcrossALine) {
 
 TEST(FractureEnergy, IsAsCasesSaysForAShortCharacteristicLength) {
   // 3 E / pi s^2 I6 / I5, I6 / I5 = 6 l for a long horizon: 18 / pi = 5.73.
-  const Micromodulus c0 = calibrate<2>(ElasticModel::plane_stress, 1., 1., 15.);
+  const Micromodulus c0 = calibrate<2>(ElasticModel::plane_stress, 1., 1. / 3., 1., 15.);
   EXPECT_NEAR(fracture_energy<2>(c0, 1.), 5.73, 0.03);  // a horizon of 15 l cuts off 0.5 %
-  EXPECT_NEAR(fracture_energy<2>(calibrate<2>(ElasticModel::plane_stress, 1., 1., 40.), 1.), 18. / pi, 1e-6);
+  EXPECT_NEAR(fracture_energy<2>(calibrate<2>(ElasticModel::plane_stress, 1., 1. / 3., 1., 40.), 1.), 18. / pi, 1e-6);
 }
 
 TEST(FractureEnergy, OfThePapersCasesIsWhatTheirCriticalStretchesMean) {
@@ -116,7 +136,8 @@ TEST(FractureEnergy, OfThePapersCasesIsWhatTheirCriticalStretchesMean) {
   const PaperCase disk{3100., 0.1, 0.055, 5.4}, plate{71400., 0.05, 0.1, 205.}, beam{30000., 0.1, 0.05, 43.},
       double_notch{30000., 0.2, 0.1, 344.};
   for (const auto& c : {disk, plate, beam, double_notch}) {
-    const Micromodulus c0 = calibrate<2>(ElasticModel::plane_stress, c.youngs_modulus, c.length, 15. * c.length);
+    const Micromodulus c0 =
+        calibrate<2>(ElasticModel::plane_stress, c.youngs_modulus, 1. / 3., c.length, 15. * c.length);
     EXPECT_NEAR(fracture_energy<2>(c0, c.stretch), c.energy, 0.01 * c.energy);  // printed with two or three digits
   }
 }
@@ -146,9 +167,9 @@ TEST(Decay, IsTheSameToTheBitInEveryPlace) {
 TEST(Micromodulus, RefusesLengthsAndStretchesThatAreNone) {
   EXPECT_THROW(kernel_moment(-1, 1., 1.), base::Bug);
   EXPECT_THROW(kernel_moment(5, 0., 1.), base::Bug);
-  EXPECT_THROW(calibrate<2>(ElasticModel::plane_stress, 1., 1., -3.), base::Bug);
-  EXPECT_THROW(calibrate<2>(ElasticModel::plane_stress, 0., 1., 3.), base::Bug);
-  const auto c0 = calibrate<2>(ElasticModel::plane_stress, 1., 1., 3.);
+  EXPECT_THROW(calibrate<2>(ElasticModel::plane_stress, 1., 1. / 3., 1., -3.), base::Bug);
+  EXPECT_THROW(calibrate<2>(ElasticModel::plane_stress, 0., 1. / 3., 1., 3.), base::Bug);
+  const auto c0 = calibrate<2>(ElasticModel::plane_stress, 1., 1. / 3., 1., 3.);
   EXPECT_THROW(fracture_energy<2>(c0, -0.1), base::Bug);
   EXPECT_THROW(critical_stretch<2>(c0, std::nan("")), base::Bug);
 }

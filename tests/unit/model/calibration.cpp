@@ -28,11 +28,19 @@ TEST(LatticeResistance, StaysAtTheNearestMeasuredValueOutsideTheirRange) {
   EXPECT_EQ(lattice_resistance(on_damage, dropped, 2.), lattice_resistance(on_damage, dropped, 0.5));
 }
 
+TEST(LatticeResistance, GrowsWithWhatTheVolumeCarries) {
+  const double without = lattice_resistance(on_damage, dropped, 1. / 3.);
+  EXPECT_DOUBLE_EQ(lattice_resistance(on_damage, dropped, 1. / 3., -0.5) / without, 0.96);
+  EXPECT_DOUBLE_EQ(lattice_resistance(on_damage, dropped, 1. / 3., 1.75) / without, 1.035);
+  EXPECT_DOUBLE_EQ(lattice_resistance(on_damage, dropped, 1. / 3., 80.) / without, 1.09);
+}
+
 /// Without loads, on elements of 1 with l = 0.2.
 Problem<2> some_problem(Calibration calibration = Calibration::mesh_consistent) {
   const auto plane_stress = materials::ElasticModel::plane_stress;
-  const auto c0 = materials::calibrate<2>(plane_stress, 1000., 0.2, 3.);
+  const auto c0 = materials::calibrate<2>(plane_stress, 1000., 1. / 3., 0.2, 3.);
   Problem<2> problem{materials::elasticity_tensor<2>(plane_stress, 1000., 1. / 3.),
+                     0.,
                      c0,
                      0.01,
                      materials::fracture_energy<2>(c0, 0.01),

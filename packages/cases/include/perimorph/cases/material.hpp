@@ -26,4 +26,7 @@ void check_material(const input::Values& section, int dimension);
 /// A Poisson's ratio that stands for the exact one (0.333 for 1/3) becomes that.
 void complete_material(Teuchos::ParameterList& values);
 
+/// Whether the dilatation carries what bonds alone cannot: for other Poisson's ratios than theirs.
+bool has_dilatation(const input::Values& material);
+
 }  // namespace perimorph::cases

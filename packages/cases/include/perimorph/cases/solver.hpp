@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "perimorph/input/section.hpp"
+#include "perimorph/input/values.hpp"
 #include "perimorph/model/numerical_options.hpp"
 
 namespace perimorph::cases {
@@ -14,5 +15,8 @@ struct Solver {
 };
 
 void declare(const input::Section& section, Solver& solver, model::NumericalOptions& numerical);
+
+/// @param has_dilatation as the material says
+void check_solver(const input::Values& section, bool has_dilatation);
 
 }  // namespace perimorph::cases

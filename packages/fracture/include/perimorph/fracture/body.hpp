@@ -109,6 +109,7 @@ class Body {
   void move_to_new_numbering();
   void assemble();
   void publish(const bonds::BondChange& change);
+  double elastic_energy() const;
   std::string reason_for(const std::string& trouble) const;
 };
 

@@ -11,11 +11,10 @@ struct BreakingRule {
 };
 
 /// The bonds that break now. Collective.
-/// @param displacement_at_points (n_points), [length]
 /// @param classes per local element
 template <int dim>
 bonds::BondChange bonds_that_break(const base::Comm& comm, const operators::CoupledModel<dim>& model,
-                                   const std::vector<base::Point<dim>>& displacement_at_points,
+                                   const operators::PointFields<dim>& at_points,
                                    const std::vector<morphing::ElementClass>& classes, const BreakingRule& rule);
 
 }  // namespace perimorph::fracture

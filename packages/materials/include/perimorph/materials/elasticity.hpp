@@ -11,6 +11,11 @@ enum class ElasticModel { plane_stress, plane_strain, three_dimensional };
 /// [-]. It makes E0 fully symmetric, as [WHL19, eq. 17] needs it.
 double bond_based_poissons_ratio(ElasticModel model);
 
+/// (lambda - mu) / mu, lambda Lame's first constant in the plane, [-]: what the volume carries in state-based
+/// peridynamics beside bonds that carry mu. Exactly 0 at bond_based_poissons_ratio().
+/// @param poissons_ratio as for elasticity_tensor()
+double dilatational_ratio(ElasticModel model, double poissons_ratio);
+
 /// Isotropic linear elasticity tensor E0 in Voigt notation with engineering shear, [stress].
 /// @param model plane stress or plane strain in 2D, three_dimensional in 3D
 /// @param youngs_modulus E > 0, [stress]

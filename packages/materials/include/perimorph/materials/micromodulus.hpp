@@ -27,24 +27,28 @@ struct Micromodulus {
 /// @param horizon delta > 0, [length]
 double kernel_moment(int n, double characteristic_length, double horizon);
 
-/// The micromodulus whose integral over a full neighbourhood gives E0 [WHL19, eq. 17], analytic:
-/// tau0 = 8 C1111 / (3 pi I5) in 2D, tau0 = 5 C1111 / (2 pi I6) in 3D, with C1111 at bond_based_poissons_ratio().
+/// The micromodulus whose integral over a full neighbourhood gives E0 [WHL19, eq. 17] without what the volume carries,
+/// analytic: tau0 = 8 C1111 / (3 pi I5) in 2D, tau0 = 5 C1111 / (2 pi I6) in 3D, with C1111 = 3 mu.
 /// @param youngs_modulus E > 0, [stress]
+/// @param poissons_ratio nu as for elasticity_tensor(), [-]
 /// @param characteristic_length l > 0, [length]
 /// @param horizon delta > 0, [length]
 template <int dim>
-Micromodulus calibrate(ElasticModel model, double youngs_modulus, double characteristic_length, double horizon);
+Micromodulus calibrate(ElasticModel model, double youngs_modulus, double poissons_ratio, double characteristic_length,
+                       double horizon);
 
 /// Energy per new crack area of all bonds that cross it, broken at the critical stretch, [energy / area]:
-/// G_c = s_c^2 tau0 I6 in 2D, s_c^2 tau0 I7 pi/2 in 3D (bond energy 1/2 c0 s^2 r^4, integrated as Silling and Askari
-/// 2005).
+/// G_c = s_c^2 (tau0 I6 + kappa J) in 2D, s_c^2 (tau0 I7 pi/2 + kappa J) in 3D (bond energy 1/2 c0 s^2 r^4, integrated
+/// as Silling and Askari 2005), where kappa = lambda - mu and J = Int_0^delta theta1(z)^2 dz is of the dilatation at a
+/// distance z from a plane all of whose crossing bonds have unit stretch.
 /// @param critical_stretch s_c >= 0, [-]
+/// @param dilatational_ratio kappa / mu, [-]; here and below
 template <int dim>
-double fracture_energy(const Micromodulus& micromodulus, double critical_stretch);
+double fracture_energy(const Micromodulus& micromodulus, double critical_stretch, double dilatational_ratio = 0.);
 
 /// The critical stretch s_c >= 0 that goes with a fracture energy: the inverse of fracture_energy().
 /// @param energy G_c >= 0, [energy / area]
 template <int dim>
-double critical_stretch(const Micromodulus& micromodulus, double energy);
+double critical_stretch(const Micromodulus& micromodulus, double energy, double dilatational_ratio = 0.);
 
 }  // namespace perimorph::materials

@@ -9,10 +9,12 @@ namespace perimorph::model {
 /// follows from the integral (materials::critical_stretch). A crack moves from element to element; it is held up at
 /// each, and what the body loses as it breaks free is not in the energy of the bonds. Interpolated between measured
 /// values (`tools/studies/work-precision --only fracture`), for characteristic lengths of 0.2 to 0.5 elements; beyond,
-/// the value of the nearest of these. Local.
+/// the value of the nearest of these. What dilatation changes of it was measured with a third of an element. Local.
 /// @param characteristic_length in element sizes [-]
+/// @param dilatational_ratio kappa / mu (materials::dilatational_ratio), [-]
 double lattice_resistance(discretization::DiscontinuousElements discontinuous,
-                          operators::PeridynamicStiffness stiffness, double characteristic_length);
+                          operators::PeridynamicStiffness stiffness, double characteristic_length,
+                          double dilatational_ratio = 0.);
 
 /// Size of the elements in which cracks start: mean edge in the seeds, of all elements if there are none in them,
 /// [length]. Collective.

@@ -26,7 +26,8 @@ enum class Calibration { analytic, mesh_consistent };
 /// What is to be computed, in the terms of the packages that compute it.
 template <int dim>
 struct Problem {
-  base::Stiffness<dim> e0;  ///< [stress]
+  base::Stiffness<dim> e0;    ///< [stress]
+  double dilatational_ratio;  ///< kappa / mu of E0 (materials::dilatational_ratio), [-]; 0: bonds alone carry
   materials::Micromodulus micromodulus;
   double critical_stretch;  ///< infinite if nothing is to break [-]
   double fracture_energy;   ///< G_c that belongs to it, [energy / area]

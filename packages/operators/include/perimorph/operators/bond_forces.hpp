@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "perimorph/operators/coupled_model.hpp"
+#include "perimorph/operators/dilatation.hpp"
 #include "perimorph/operators/force_term.hpp"
 
 namespace perimorph::operators {
@@ -13,17 +15,22 @@ namespace perimorph::operators {
 /// along every intact bond, spread the forces to the nodes. Four points of an element make a packet; the bonds between
 /// two packets are a mask of 16 bits and one single-precision number per bond, so that few bytes stream past per bond.
 /// If the bonds compute their stiffness on the fly, the mask is all: a tenth of the bytes for twice the arithmetic.
+/// With dilatation the bonds are passed over twice: for the sums at each point, and for the forces.
 template <int dim>
 class BondForces : public LinearTerm<dim> {
  public:
-  /// Of the intact bonds. Local. The model is read again later and must outlive this.
+  /// Of the intact bonds. Collective with dilatation. The model is read again later and must outlive this.
   explicit BondForces(const CoupledModel<dim>& model);
+
+  /// p of a displacement at all points, (n_points), [-]; empty without dilatation. Collective.
+  /// @param u on all local degrees of freedom, [length]
+  std::vector<double> dilatational_stretch(base::ConstField u) const;
 
   void add_tangent_product(base::ConstField x, base::Field force) const override;
   void take(const bonds::BondChange& change) override;
   std::size_t bytes() const override;
 
-  // In a matrix, with those bonds that it selects.
+  // In a matrix, with those bonds that it selects, and without dilatation, which would couple across two horizons.
   void couple(const StiffnessMatrix<dim>& matrix, Couplings<dim>& couplings) const override;
   void add_to(StiffnessMatrix<dim>& matrix) const override;
   void take(const bonds::BondChange& change, StiffnessMatrix<dim>& matrix, std::vector<int>& changed) const override;
@@ -50,12 +57,20 @@ class BondForces : public LinearTerm<dim> {
 
   mutable std::vector<double> displacements_, forces_;  ///< per packet: (dim, 4)
 
+  std::optional<Dilatation> dilatation_;   ///< at the points of the packets
+  mutable std::vector<double> stretches_;  ///< per packet: (4), first S and then p
+
   void make_packets();
   void make_blocks();
   std::size_t shapes_of(const elements::ReferenceElement<dim>& reference, int first_point);
+  void make_dilatation();
+  std::size_t lane_of(int element, int q) const;
   void gather(const double* u) const;
-  template <bool on_the_fly>
-  void pull() const;
+  template <class Sum>
+  void pass_over(Sum sum) const;
+  template <bool on_the_fly, class Sum>
+  void pass_over_blocks(Sum& sum) const;
+  void dilate() const;
   void spread(double* force) const;
 };
 

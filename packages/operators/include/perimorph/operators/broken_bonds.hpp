@@ -12,7 +12,7 @@ namespace perimorph::operators {
 /// @param force on owned degrees of freedom, [force]
 template <int dim>
 void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std::size_t>& broken,
-                          const std::vector<base::Point<dim>>& at_points, std::vector<double>& force);
+                          const PointFields<dim>& at_points, std::vector<double>& force);
 
 /// Energy stored in bonds just before they break, counted by the rank that owns a bond's first element:
 /// Sum 1/2 k (xi . eta)^2 [WHL19, eq. 21], [energy]. Local.
@@ -20,6 +20,6 @@ void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std:
 /// @param at_points displacement, (n_points), [length]
 template <int dim>
 double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t>& bonds,
-                   const std::vector<base::Point<dim>>& at_points);
+                   const PointFields<dim>& at_points);
 
 }  // namespace perimorph::operators

@@ -16,6 +16,8 @@ struct CoupledModel {
   const MorphedStiffness<dim>& elasticity;
   const discretization::DofMap<dim>& dofs;
 
+  bool has_dilatation() const { return elasticity.dilatation_factor() != 0.; }
+
   /// Stiffness of an intact bond's spring, c0 (alpha(x) + alpha(p)) / 2 w_x w_p, [force / length^3]
   /// [WHL19, eq. 15, 21].
   double spring(const bonds::Bond<dim>& bond) const {
@@ -23,24 +25,39 @@ struct CoupledModel {
   }
 };
 
-/// The law of an intact bond [WHL19, eq. 14, 15]: a spring along xi, stretched by eta = u(p) - u(x).
+/// What bonds see of a displacement, at material points.
+template <int dim>
+struct PointFields {
+  std::vector<base::Point<dim>> displacement;  ///< (n_points), [length]
+  /// p = g S, the stretch that the dilatation of a point adds to all of its bonds (dilatation.hpp), (n_points),
+  /// [-]; empty without dilatation
+  std::vector<double> dilatational_stretch = {};
+};
+
+/// The law of an intact bond [WHL19, eq. 14, 15]: a spring along xi, stretched by eta = u(p) - u(x) and by the
+/// dilatation at its ends.
 template <int dim>
 struct BondSpring {
-  double stiffness;     ///< k, [force / length^3]
   base::Point<dim> xi;  ///< [length]
   double elongation;    ///< xi . eta, [length^2]
+  double tension;       ///< k (xi . eta + |xi|^2 (p(x) + p(p))), [force / length]
 
-  /// @param u displacement at the points, (n_points), [length]
-  BondSpring(const CoupledModel<dim>& model, const bonds::Bond<dim>& bond, const std::vector<base::Point<dim>>& u)
-      : stiffness(model.spring(bond)),
-        xi(bond.xi),
-        elongation(bond.xi.dot(u[bond.second_point] - u[bond.first_point])) {}
+  BondSpring(const CoupledModel<dim>& model, const bonds::Bond<dim>& bond, const PointFields<dim>& at_points)
+      : xi(bond.xi),
+        elongation(bond.xi.dot(at_points.displacement[bond.second_point] - at_points.displacement[bond.first_point])),
+        tension(model.spring(bond) * (elongation + dilatation(bond, at_points))) {}
 
   /// The force on its first point, (dim), [force]; on the second the opposite.
-  base::Point<dim> pull() const { return stiffness * elongation * xi; }
+  base::Point<dim> pull() const { return tension * xi; }
 
-  /// Of both its points' shares [WHL19, eq. 21], [energy].
-  double energy() const { return 0.5 * stiffness * elongation * elongation; }
+  /// Of both its points' shares [WHL19, eq. 21] and what it adds to theirs of the dilatation, [energy].
+  double energy() const { return 0.5 * tension * elongation; }
+
+ private:
+  static double dilatation(const bonds::Bond<dim>& bond, const PointFields<dim>& at_points) {
+    const auto& p = at_points.dilatational_stretch;
+    return p.empty() ? 0. : bond.xi.squaredNorm() * (p[bond.first_point] + p[bond.second_point]);
+  }
 };
 
 }  // namespace perimorph::operators

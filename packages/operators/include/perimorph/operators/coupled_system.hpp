@@ -4,6 +4,7 @@
 
 #include "perimorph/base/profile.hpp"
 #include "perimorph/discretization/topology.hpp"
+#include "perimorph/operators/bond_forces.hpp"
 #include "perimorph/operators/load_forces.hpp"
 #include "perimorph/operators/matrix_free_tangent.hpp"
 #include "perimorph/operators/nonlinear_system.hpp"
@@ -20,7 +21,6 @@ enum class OperatorForm { crs, matrix_free, on_the_fly };
 enum class PreconditionerMatrix { coupled, short_range };
 
 struct SystemOptions {
-  PeridynamicStiffness peridynamic_stiffness = PeridynamicStiffness::dropped;
   OperatorForm operator_form = OperatorForm::matrix_free;
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
   double short_range_cut_off = 0.;  ///< [length]
@@ -32,10 +32,10 @@ template <int dim>
 class CoupledSystem : public NonlinearSystem {
  public:
   /// The arguments must outlive this. It has no terms before the first assemble().
-  /// @param e0 the material's elasticity, without bonds, [stress]
+  /// @param elasticity of the material, without bonds yet
   CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
                 const discretization::Dirichlet<dim>& dirichlet, const discretization::Loads<dim>& loads,
-                const base::Stiffness<dim>& e0, SystemOptions options, base::Profile& profile);
+                MorphedStiffness<dim> elasticity, SystemOptions options, base::Profile& profile);
 
   /// E(x) follows alpha, bonds and classes of the topology. Local.
   void follow_morphing();
@@ -58,8 +58,9 @@ class CoupledSystem : public NonlinearSystem {
   /// From now on this load factor holds, [-]. Local.
   void apply_load(double load_factor);
 
-  /// Bonds have broken: terms and matrices take them out, and so do the forces, if there are any. Returns the owned
-  /// nodes whose rows have changed in the preconditioner's matrix, some more than once. Local.
+  /// Bonds have broken: terms and matrices take them out, and so do the forces, if there are any; with dilatation,
+  /// where more than these bonds' forces change, they are forgotten. Returns the owned nodes whose rows have changed in
+  /// the preconditioner's matrix, some more than once. Local.
   std::vector<int> take(const bonds::BondChange& change);
 
   void evaluate(base::ConstField u) override;
@@ -82,10 +83,9 @@ class CoupledSystem : public NonlinearSystem {
   /// The forces that the loads exert, on owned degrees of freedom, [force].
   const std::vector<double>& loads() const { return loads_; }
 
-  /// At the last evaluation, (n_points), [length].
-  const std::vector<base::Point<dim>>& displacement_at_points() const { return at_points_; }
-  const ForceTerms<dim>& terms() const { return terms_; }  ///< of the internal force
-  std::size_t bytes_of_operator() const;                   ///< of memory, in the form that conjugate gradients apply
+  const PointFields<dim>& at_points() const { return at_points_; }  ///< at the last evaluation
+  const ForceTerms<dim>& terms() const { return terms_; }           ///< of the internal force
+  std::size_t bytes_of_operator() const;  ///< of memory, in the form that conjugate gradients apply
 
  private:
   const base::Comm& comm_;
@@ -98,13 +98,14 @@ class CoupledSystem : public NonlinearSystem {
   MorphedStiffness<dim> elasticity_;
   std::unique_ptr<discretization::Space<dim>> space_;
   ForceTerms<dim> terms_, load_terms_;
-  Teuchos::RCP<Anchors<dim>> anchors_;  ///< also among the terms
+  Teuchos::RCP<BondForces<dim>> bond_forces_;  ///< also among the terms
+  Teuchos::RCP<Anchors<dim>> anchors_;         ///< the same
   Teuchos::RCP<MatrixFreeTangent<dim>> tangent_;
   // As a matrix, and the short-range matrix; null if neither operator nor preconditioner needs them.
   std::unique_ptr<StiffnessMatrix<dim>> matrix_, short_range_;
   Teuchos::RCP<const PointBasis<dim>> basis_;  ///< of the short-range matrix
 
-  std::vector<base::Point<dim>> at_points_;
+  PointFields<dim> at_points_;
   std::vector<double> internal_, loads_;
   bool has_forces_ = false;
   double load_factor_ = 0.;

@@ -16,21 +16,21 @@ std::vector<base::Point<dim>> displacements_at_points(const CoupledModel<dim>& m
 template <int dim>
 struct ElementFields {
   std::vector<double> energy;            ///< strain energy in the element: local + half of each of its bonds', [energy]
-  std::vector<base::Voigt<dim>> stress;  ///< E(x) eps + 1/2 Sum k (xi . eta) xi (x) xi / w, [stress]
+  std::vector<base::Voigt<dim>> stress;  ///< E(x) eps + 1/2 Sum tension xi (x) xi / w, [stress]
 };
 
 /// Energy and stress of all owned elements. Local.
 /// @param u on all local degrees of freedom, [length]
-/// @param at_points B u (displacements_at_points), (n_points), [length]
+/// @param at_points of it (CoupledSystem::at_points)
 template <int dim>
 ElementFields<dim> element_fields(const CoupledModel<dim>& model, base::ConstField u,
-                                  const std::vector<base::Point<dim>>& at_points);
+                                  const PointFields<dim>& at_points);
 
 /// Stress at each material point of one owned element, (n_points), [stress]; element_fields' is their mean. Arguments
 /// as there. Local.
 template <int dim>
 std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, int element, base::ConstField u,
-                                               const std::vector<base::Point<dim>>& at_points);
+                                               const PointFields<dim>& at_points);
 
 /// The largest eigenvalue of the strain at any material point of an element [-]: the largest stretch of a bond, were
 /// the strain around it uniform. Local.

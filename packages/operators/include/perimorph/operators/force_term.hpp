@@ -16,8 +16,8 @@ struct Couplings;
 
 /// A term of the balance of forces. It adds the forces that it takes to hold the nodes against it, as the internal
 /// force K u does; what loads the body adds them with the other sign. Fields are on all local degrees of freedom, and
-/// sums are right on owned ones; displacements are in [length], forces in [force], the load factor is a number [-]. All
-/// functions are local.
+/// sums are right on owned ones; displacements are in [length], forces in [force], the load factor is a number [-].
+/// Forces, products and energy are collective, all else is local.
 template <int dim>
 class ForceTerm {
  public:

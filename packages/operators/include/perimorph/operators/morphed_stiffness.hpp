@@ -14,12 +14,15 @@ enum class PeridynamicStiffness { dropped, kept };
 /// E(x) = E0 - 1/2 Sum_p c0 (alpha(x) + alpha(p))/2 xi (x) xi (x) xi (x) xi w_p   [WHL19, eq. 16], at material points,
 /// with the discrete sum over all visible bonds as they are before any breaks. E0 where there are no bonds. On
 /// irregular meshes the sum exceeds E0 at single points; in discontinuous elements, which nothing else holds together,
-/// E(x) is clipped to positive semi-definite there.
+/// E(x) is clipped to positive semi-definite there. What the dilatation carries goes off too: g t (x) t / w, with
+/// t = Sum_p c (alpha(x) + alpha(p))/2 |xi|^2 xi (x) xi and g as in BondForces.
 template <int dim>
 class MorphedStiffness {
  public:
   /// @param e0 E0, [stress]
-  MorphedStiffness(const base::Stiffness<dim>& e0, PeridynamicStiffness policy) : e0_(e0), policy_(policy) {}
+  /// @param dilatation_factor g M of every point: dim kappa / (2 (dim + 2) mu), [-]; 0: bonds alone carry
+  MorphedStiffness(const base::Stiffness<dim>& e0, PeridynamicStiffness policy, double dilatation_factor = 0.)
+      : e0_(e0), policy_(policy), dilatation_factor_(dilatation_factor) {}
 
   /// Recomputes the elements that are touched; needed after alpha or the bonds have grown, or elements were split.
   /// Mesh, points and bonds are always the same ones. Right for active elements. Local.
@@ -35,6 +38,7 @@ class MorphedStiffness {
     return first_[element] < 0 ? e0_ : reduced_[first_[element] + q];
   }
   const base::Stiffness<dim>& e0() const { return e0_; }
+  double dilatation_factor() const { return dilatation_factor_; }
   /// Whether E = E0 in the whole element.
   bool is_e0(int element) const { return first_[element] < 0; }
   /// Whether E = 0 in the whole element.
@@ -47,6 +51,7 @@ class MorphedStiffness {
  private:
   base::Stiffness<dim> e0_;
   PeridynamicStiffness policy_;
+  double dilatation_factor_;
   std::vector<int> first_;  ///< position of an element's first point in reduced_; -1 for E0
   std::vector<base::Stiffness<dim>> reduced_;
   std::vector<char> is_zero_;
