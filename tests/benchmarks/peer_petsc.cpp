@@ -40,7 +40,7 @@ class Petsc {
     check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   }
 
-  void set_up_anew() {
+  void set_up_again() {
     check(KSPDestroy(&ksp_));
     check(KSPCreate(PETSC_COMM_SELF, &ksp_));
     check(KSPSetType(ksp_, KSPCG));
@@ -141,7 +141,7 @@ class Petsc {
 void solve(const std::string& state, Petsc& petsc, bool from_scratch) {
   Cost cost{};
   const Stopwatch set_up;
-  if (from_scratch) petsc.set_up_anew();
+  if (from_scratch) petsc.set_up_again();
   cost.set_up = set_up.seconds();
   const Stopwatch solution;
   cost.iterations = petsc.solve();

@@ -103,7 +103,7 @@ class Solution {
         residual_(load.getMap()),
         correction_(load.getMap()) {}
 
-  void solve_anew(const std::string& state) {
+  void solve_again(const std::string& state) {
     terms_ = body_.terms();
     stiffness_ = Teuchos::rcp(new operators::MatrixFreeTangent<2>(body_.tangent(terms_)));
     source_ = short_range(body_, horizon);
@@ -164,13 +164,13 @@ void run(const std::string& folder, int side) {
   write_change(folder + "/matrix.mtx");
 
   Solution solution(body, *coupled, load);
-  solution.solve_anew("intact");
+  solution.solve_again("intact");
   for (int k = 1; k <= 1 + n_advances; ++k) {
     const auto broken = body.break_bonds(body.bonds_across(1, 0.5 * side, first_crack + (k - 1) * advance));
     body.stiffness->take({broken});
     write_change(change_file(folder, k));
     if (k == 1) {
-      solution.solve_anew("cracked");
+      solution.solve_again("cracked");
     } else {
       solution.solve_again("advanced", broken);
     }

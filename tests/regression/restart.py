@@ -61,7 +61,7 @@ class Continued(GrowingCrack):
                     ours, theirs = (numpy.sort(s[f"vals_nod_var{c}"]) for s in [steps[-1], last])
                     numpy.testing.assert_allclose(ours, theirs, atol=1e-5)  # displacements are up to 0.8
 
-    def test_a_run_that_is_parted_anew_on_its_way_breaks_the_same_bonds_and_can_be_continued(self):
+    def test_a_run_that_is_repartitioned_on_its_way_breaks_the_same_bonds_and_can_be_continued(self):
         repartitioned = [*EVERY, "--set", "Solver/Largest Imbalance=1"]
         for ranks in [2, 4]:
             with self.subTest(ranks=ranks):
@@ -99,7 +99,7 @@ class Continued(GrowingCrack):
         self.run_until(3)
         self.assertEqual(self.checkpoints(), ["checkpoint-000003.h5"])
 
-    def test_rows_and_steps_after_the_checkpoint_are_computed_anew(self):
+    def test_rows_and_steps_after_the_checkpoint_are_computed_again(self):
         whole = self.uninterrupted()
         self.run_until(13, *EVERY)
         older = {p: p.read_bytes() for p in self.output.glob("checkpoint*")}

@@ -89,7 +89,7 @@ class Files(Spread):
         for increment in whole:
             numpy.testing.assert_allclose(damage[increment], whole[increment], atol=1e-12)
 
-    def test_steps_after_the_checkpoint_are_written_anew(self):
+    def test_steps_after_the_checkpoint_are_written_again(self):
         self.run_until(13, *SPREAD, *EVERY, ranks=2)
         older = {path: path.read_bytes() for path in self.output.glob("checkpoint*")}
         self.run_until(15, *SPREAD, *EVERY, "--restart", ranks=2)

@@ -224,6 +224,7 @@ void Checkpoints<dim>::accept(int increment, fracture::Body<dim>& body, Results<
   PERIMORPH_ASSERT(increment > position_.increment, "increment {} after {}", increment, position_.increment);
   remember({increment}, body, element_costs);
   results_ = results.state();
+  remembered_seconds_ = results_->seconds;
   const bool is_by_count = every_ > 0 && increment % every_ == 0;
   const bool is_due = is_by_count || increment == last_increment_ || is_requested;
   if (is_time() || is_due) write(results);
@@ -239,7 +240,7 @@ void Checkpoints<dim>::solved(const fracture::LoopPosition& position, fracture::
       is_exact ? position.damage_iterations % solves_between == 0 : (is_due || is_needed) && is_worthwhile(position);
   if (is_kept && !(id_of(position) == id_of(position_))) {
     remember(position, body, element_costs);
-    results_->seconds = results.state().seconds;
+    remembered_seconds_ = results.state().seconds;
   }
   if (is_kept && is_exact) {
     body.forget_solves();
@@ -272,7 +273,9 @@ void Checkpoints<dim>::write(Results<dim>& results) {
     writer.integers(format_name, current_format);
     checkpoint.texts[case_name] = case_lines_;
     describe_origin(writer, position_, planned_increments_, mesh_identity_, element_costs_);
-    describe_results(writer, *results_);
+    auto at_position = *results_;
+    at_position.seconds = remembered_seconds_;
+    describe_results(writer, at_position);
     folder_.write(id_of(position_), checkpoint);
   });
   is_on_disk_ = true;

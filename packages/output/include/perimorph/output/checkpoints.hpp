@@ -89,7 +89,8 @@ class Checkpoints {
   bool is_on_disk_ = true;           ///< that one; the beginning needs none
   discretization::SavedState<dim> body_;
   std::vector<base::GlobalId> owned_elements_;  ///< in the order of body_.displacement
-  std::optional<ResultsState> results_;
+  std::optional<ResultsState> results_;         ///< at the last accepted increment
+  double remembered_seconds_ = 0.;              ///< of the run, at the position that is remembered, [s]
   std::vector<double> element_costs_;
 
   double last_remembered_, last_written_;  ///< [s]
