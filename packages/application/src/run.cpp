@@ -301,7 +301,7 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
   describe(*comm, input, problem, mesh, log);
   if (mesh_files::is_geometry(input.mesh.file)) {
     log->info("geometry         a program that gmsh runs; commands and writing files are {} (--allow-shell)",
-              input.mesh.side_effects == mesh_files::SideEffects::allowed ? "allowed" : "refused");
+              input.mesh.meshing.side_effects == mesh_files::SideEffects::allowed ? "allowed" : "refused");
   }
   if (comm->getRank() == 0) log->info("{}", mesh::describe(whole));
   log_notes(whole, log);

@@ -55,4 +55,6 @@ Signals::Requests Signals::look(const Comm& comm) {
   return {name_of(static_cast<int>(stop)), asked > 0};
 }
 
+bool Signals::is_stop_asked() { return stop_signal != 0; }
+
 }  // namespace perimorph::base

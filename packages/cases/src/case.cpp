@@ -146,7 +146,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   check(resolved, mistakes);
   if (!mistakes.empty()) {
     Case input = take(file, resolved, mistakes);
-    input.mesh.side_effects = side_effects;
+    input.mesh.meshing.side_effects = side_effects;
     if (!input.mesh.file.empty() && resolved.list.isParameter("Dimension")) {
       (input.dimension == 2 ? check_mesh_of<2> : check_mesh_of<3>)(input, mistakes);
     }
@@ -154,7 +154,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   }
   complete(resolved.list);
   Case input = take(file, resolved, mistakes);
-  input.mesh.side_effects = side_effects;
+  input.mesh.meshing.side_effects = side_effects;
   name_results(input);
   complete_lengths(input);
   complete_reactions(input);

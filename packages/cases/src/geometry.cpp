@@ -67,7 +67,7 @@ std::vector<Point<dim>> places_of(const Probe& probe) {
 
 template <int dim>
 mesh::Mesh<dim> read_closed_mesh(const Case& input, const std::string& folder) {
-  return mesh_files::mesh_and_read<dim>(input.mesh.file, folder, input.mesh.scale, input.mesh.side_effects);
+  return mesh_files::mesh_and_read<dim>(input.mesh.file, folder, input.mesh.scale, input.mesh.meshing);
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                          \

@@ -11,6 +11,9 @@ void declare(const input::Section& section, MeshSource& mesh) {
   section.parameter("Scale", mesh.scale, input::above(0.),
                     "Factor on the coordinates in that file [-]: 1000 for a mesh in m and a case in mm. All lengths in "
                     "the case are those after scaling.");
+  section.changeable().parameter(
+      "Maximum Meshing Minutes", mesh.meshing.minutes, input::above(0.),
+      "How long gmsh may take to mesh a geometry (.geo) [min]; then it is ended, and the case refused.");
 }
 
 }  // namespace perimorph::cases

@@ -235,14 +235,18 @@ class Builder {
     if (n_elements_at_.empty()) {
       for (std::size_t e = 0; e < n_body; ++e) {
         for (int s = 1; s <= n_abaqus_sides(result_.shapes[e]); ++s) {
-          auto side = side_nodes(e, s);
-          std::sort(side.begin(), side.end());
-          ++n_elements_at_[side];
+          ++n_elements_at_[different(side_nodes(e, s))];
         }
       }
     }
+    return n_elements_at_[different(std::move(nodes))];
+  }
+
+  /// In ascending order.
+  static std::vector<std::int64_t> different(std::vector<std::int64_t> nodes) {
     std::sort(nodes.begin(), nodes.end());
-    return n_elements_at_[nodes];
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
   }
 
   void add_node_set(const AbaqusPart& part, const AbaqusSet& set) {

@@ -47,6 +47,14 @@ std::optional<AnsysNodes> nodes_of_ansys_type(const AnsysType& type) {
   return type.kind == mesh_only ? found_in(by_option, type.first_option) : found_in(by_kind, type.kind);
 }
 
+bool is_axisymmetric(const AnsysType& type) {
+  static const std::set<int> plane_kinds = {2,   13,  35,  42,  53,  55,  77,  82,  121, 146,
+                                            182, 183, 212, 213, 223, 230, 233, 238, 292, 293};
+  constexpr int without_torsion = 1, with_torsion = 6;
+  return plane_kinds.count(type.kind) > 0 &&
+         (type.third_option == without_torsion || type.third_option == with_torsion);
+}
+
 bool is_without_body(const AnsysType& type) {
   static const std::set<int> kinds = {3,   4,   8,   10,  14,  21,  39,  40,  116, 151, 152, 153,
                                       154, 156, 169, 170, 171, 172, 173, 174, 175, 176, 177, 178,

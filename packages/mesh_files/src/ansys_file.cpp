@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
-#include <set>
 
 #include "ansys_elements.hpp"
 #include "file_cursor.hpp"
@@ -25,21 +24,6 @@ const char* const advice = "write PLANE182 elements for a 2D case, SOLID185 for 
 constexpr std::size_t material_field = 0, type_field = 1, count_field = 8, number_field = 10, n_fields = 11;
 
 using Nodes = std::vector<std::int64_t>;
-
-/// A collapsed element without its repeated nodes.
-struct Reduced {
-  Shape shape;
-  Nodes nodes;
-};
-
-std::size_t n_different(const Nodes& nodes) { return std::set<std::int64_t>(nodes.begin(), nodes.end()).size(); }
-
-/// A ring of nodes without immediate repetitions.
-Nodes without_repetition(Nodes ring) {
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-  return ring;
-}
 
 class Reader {
  public:
@@ -154,21 +138,27 @@ class Reader {
 
   // ---- nodes and elements ----
 
-  /// ET, number, kind (182 or PLANE182), first key option
+  /// ET, number, kind (182 or PLANE182), key options
   void read_element_type(const std::vector<std::string>& fields) {
     if (fields.size() < 3) cursor_.fail("ET without a number and an element type");
     const std::string digits = fields[2].substr(std::min(fields[2].find_first_of("0123456789"), fields[2].size()));
     if (const auto number = number_or_parameter(fields[1])) {
-      const int option = fields.size() > 3 ? static_cast<int>(number_or_parameter(fields[3]).value_or(0)) : 0;
-      types_[*number] = {static_cast<int>(whole_number(digits) % 100000), option};
+      const auto option = [&](std::size_t field) {
+        return fields.size() > field ? static_cast<int>(number_or_parameter(fields[field]).value_or(0)) : 0;
+      };
+      types_[*number] = {static_cast<int>(whole_number(digits) % 100000), option(3), option(5)};
     }
   }
 
   /// KEYOPT, type, which, value
   void read_option(const std::vector<std::string>& fields) {
-    if (fields.size() < 4 || number_or_parameter(fields[2]) != 1) return;
+    if (fields.size() < 4) return;
     const auto type = types_.find(number_or_parameter(fields[1]).value_or(0));
-    if (type != types_.end()) type->second.first_option = static_cast<int>(number_or_parameter(fields[3]).value_or(0));
+    if (type == types_.end()) return;
+    const auto which = number_or_parameter(fields[2]);
+    const int value = static_cast<int>(number_or_parameter(fields[3]).value_or(0));
+    if (which == 1) type->second.first_option = value;
+    if (which == 3) type->second.third_option = value;
   }
 
   /// *SET, name, value: Workbench names types of contact elements so.
@@ -184,14 +174,21 @@ class Reader {
     return parameter == parameters_.end() ? std::nullopt : std::optional(parameter->second);
   }
 
-  /// Since ANSYS 2019: number, kind, key options, a line each.
+  /// Since ANSYS 2019: number, kind, key options (as text), a line each.
   void read_element_types() {
     const ColumnFormat format = read_format();
     for (;;) {
-      const std::vector<std::int64_t> line = integers(data_line(), format);
-      if (line.empty() || line[0] == -1) return;
-      if (line.size() < 2) cursor_.fail("ETBLOCK has a line without a number and an element type");
-      types_[line[0]] = {static_cast<int>(line[1] % 100000), line.size() > 2 ? static_cast<int>(line[2]) : 0};
+      const std::string line = data_line();
+      const std::vector<std::int64_t> numbers = integers(line, format);
+      if (numbers.empty() || numbers[0] == -1) return;
+      if (numbers.size() < 2) cursor_.fail("ETBLOCK has a line without a number and an element type");
+      const int first = format.integers[0] + format.integers[1];
+      const auto option = [&](int which) {
+        const int width = format.others.empty() ? format.integers.back() : format.others[0];
+        const std::string text = trimmed(column(line, static_cast<std::size_t>(first + (which - 1) * width), width));
+        return static_cast<int>(number_or_parameter(text).value_or(0));
+      };
+      types_[numbers[0]] = {static_cast<int>(numbers[1] % 100000), option(1), option(3)};
     }
   }
 
@@ -281,12 +278,10 @@ class Reader {
       cursor_.fail(fmt::format("element {} has {} nodes; its type has {}", number, nodes.size(), kind.n_nodes));
     }
     if (kind.is_plane) ++result_.n_plane_bodies;
-    Nodes corners(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(kind.n_corners));
-    Reduced reduced = kind.is_plane         ? reduced_plane(corners, number)
-                      : kind.n_corners == 4 ? Reduced{Shape::tetrahedron, corners}
-                                            : reduced_solid(corners, number);
-    reduced.nodes.insert(reduced.nodes.end(), nodes.begin() + static_cast<std::ptrdiff_t>(kind.n_corners), nodes.end());
-    result_.add_element(number, reduced.shape, 0, reduced.nodes);
+    const bool is_full = kind.n_corners > (kind.is_plane ? 3 : 4);  // other shapes are this one with repeated nodes
+    const Shape shape = kind.is_plane ? (is_full ? Shape::quadrangle : Shape::triangle)
+                                      : (is_full ? Shape::hexahedron : Shape::tetrahedron);
+    result_.add_element(number, shape, 0, nodes);
     materials_.push_back(line[material_field]);
   }
 
@@ -301,6 +296,12 @@ class Reader {
           "SOLID185, SOLID187 and SHELL181 (unselect others before CDWRITE)",
           element, type->second.kind));
     }
+    if (is_axisymmetric(type->second)) {
+      cursor_.fail(fmt::format(
+          "element {} is of ANSYS' type {} with KEYOPT(3) = {}, an axisymmetric one; allowed are plane elements of "
+          "plane stress or plane strain",
+          element, type->second.kind, type->second.third_option));
+    }
     return type->second;
   }
 
@@ -309,31 +310,6 @@ class Reader {
       result_.notes.push_back(
           fmt::format("{} elements of ANSYS' type {}, which have no body, are passed over", count, kind));
     }
-  }
-
-  /// A triangle has its last node twice.
-  Reduced reduced_plane(const Nodes& nodes, std::int64_t number) const {
-    const Nodes ring = without_repetition(nodes);
-    if (ring.size() == 4 && n_different(ring) == 4) return {Shape::quadrangle, ring};
-    if (ring.size() == 3 && n_different(ring) == 3) return {Shape::triangle, ring};
-    cursor_.fail(fmt::format("element {} has nodes {}, which are the corners of no triangle or quadrangle", number,
-                             fmt::join(nodes, ", ")));
-  }
-
-  /// A wedge has three nodes in its lower and in its upper face, a pyramid four and one, a tetrahedron three and one.
-  Reduced reduced_solid(const Nodes& nodes, std::int64_t number) const {
-    if (n_different(nodes) == nodes.size()) return {Shape::hexahedron, nodes};
-    const Nodes lower_face = without_repetition({nodes.begin(), nodes.begin() + 4});
-    const Nodes upper_face = without_repetition({nodes.begin() + 4, nodes.end()});
-    const std::map<std::pair<std::size_t, std::size_t>, Shape> collapsed = {
-        {{3, 3}, Shape::wedge}, {{4, 1}, Shape::pyramid}, {{3, 1}, Shape::tetrahedron}};
-    const auto shape = collapsed.find({lower_face.size(), upper_face.size()});
-    Nodes corners = lower_face;
-    corners.insert(corners.end(), upper_face.begin(), upper_face.end());
-    if (shape != collapsed.end() && n_different(corners) == corners.size()) return {shape->second, corners};
-    cursor_.fail(
-        fmt::format("element {} has nodes {}, which are the corners of no hexahedron, wedge, pyramid or tetrahedron",
-                    number, fmt::join(nodes, ", ")));
   }
 
   // ---- components ----

@@ -2,6 +2,7 @@
 
 #include <linux/filter.h>
 #include <linux/seccomp.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -15,13 +16,28 @@
 
 namespace perimorph::mesh_files {
 
-std::string read_to_end(int descriptor) {
+namespace {
+
+constexpr std::size_t longest_text = std::size_t{1} << 20U;
+constexpr int milliseconds_between_looks = 100;
+
+void leave_out_the_middle(std::string& text) {
+  if (text.size() > longest_text) text.erase(longest_text / 2, text.size() - longest_text);
+}
+
+}  // namespace
+
+std::string read_to_end(int descriptor, const std::function<bool()>& waits) {
   std::string text;
   std::array<char, 4096> piece;
-  for (ssize_t n; (n = read(descriptor, piece.data(), piece.size())) != 0;) {
+  pollfd pipe = {descriptor, POLLIN, 0};
+  while (waits()) {
+    const int ready = poll(&pipe, 1, milliseconds_between_looks);
+    const ssize_t n = ready > 0 ? read(descriptor, piece.data(), piece.size()) : ready;
     if (n > 0) {
       text.append(piece.data(), static_cast<std::size_t>(n));
-    } else if (errno != EINTR) {
+      leave_out_the_middle(text);
+    } else if (n < 0 ? errno != EINTR : ready > 0) {
       break;
     }
   }

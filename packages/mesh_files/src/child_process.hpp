@@ -2,13 +2,17 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
 
 namespace perimorph::mesh_files {
 
-/// All that is written into a pipe until its other end is closed. Local.
+/// What is written into a pipe until its other end is closed, or nobody wants to wait any longer; of more than a
+/// megabyte the beginning and the end. Local.
 /// @param descriptor the end to read from
-std::string read_to_end(int descriptor);
+/// @param waits asked several times a second
+std::string read_to_end(
+    int descriptor, const std::function<bool()>& waits = [] { return true; });
 
 /// From here on this process, a child, does not outlive the one that has started it. May be called after fork(). Local.
 void end_with_parent();

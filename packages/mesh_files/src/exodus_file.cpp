@@ -83,7 +83,8 @@ class Handle {
     int our_word_size = sizeof(double), file_word_size = 0;
     float version = 0.F;
     const Silence silence;
-    id_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &our_word_size, &file_word_size, &version);
+    const std::string path = std::filesystem::absolute(file).lexically_normal();  // a relative one may be an address
+    id_ = ex_open(path.c_str(), EX_READ | EX_ALL_INT64_API, &our_word_size, &file_word_size, &version);
   }
   ~Handle() {
     if (id_ >= 0) ex_close(id_);

@@ -12,6 +12,7 @@
 #include "perimorph/base/text.hpp"
 #include "perimorph/mesh/orientation.hpp"
 #include "perimorph/mesh/sorted_sides.hpp"
+#include "repeated_nodes.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -34,18 +35,6 @@ constexpr double largest_coordinate = 1e100;  // so that squares and volumes are
 const char* entity_name(int dimension) {
   static constexpr std::array<const char*, 4> names = {"point", "curve", "surface", "volume"};
   return names.at(static_cast<std::size_t>(dimension));
-}
-
-/// Asserts that a reader has filled lists that belong together with as many items.
-void check_lengths(const MeshFile& file) {
-  const std::size_t n = file.n_elements();
-  PERIMORPH_ASSERT(file.node_tags.size() == file.coordinates.size(), "{} nodes, {} places", file.node_tags.size(),
-                   file.coordinates.size());
-  PERIMORPH_ASSERT(file.shapes.size() == n && file.element_groups.size() == n, "{} elements, {} shapes, {} groups", n,
-                   file.shapes.size(), file.element_groups.size());
-  PERIMORPH_ASSERT(file.first_node.size() == n + 1 && file.first_node.back() == file.element_nodes.size(),
-                   "{} elements, {} lists of nodes up to {} of {}", n, file.first_node.size(), file.first_node.back(),
-                   file.element_nodes.size());
 }
 
 template <int dim>
@@ -195,10 +184,10 @@ class MeshBuilder {
     return places;
   }
 
-  /// Of an element's corners: the mesh's nodes, without those that are not used.
-  std::vector<int> used_nodes_of(std::size_t element) const {
+  /// Of places in the file: the mesh's nodes, without those that are not used.
+  std::vector<int> used_nodes(const std::vector<int>& places) const {
     std::vector<int> nodes;
-    for (const int place : places_of(element)) {
+    for (const int place : places) {
       if (node_at_place_[place] != unused) nodes.push_back(node_at_place_[place]);
     }
     return nodes;
@@ -252,15 +241,29 @@ class MeshBuilder {
   }
 
   void add_elements() {
+    int n_reduced = 0;
     for (std::size_t e = 0; e < file_.n_elements(); ++e) {
       if (dimension_of(e) != dim) continue;
-      const std::vector<int> nodes = places_of(e);
-      mesh_.types.push_back(element_type(file_.shapes[e]));
+      const auto [shape, nodes] = corners_of(e);
+      if (shape != file_.shapes[e]) ++n_reduced;
+      mesh_.types.push_back(element_type(shape));
       mesh_.blocks.push_back(block_of(e));
       mesh_.corners.insert(mesh_.corners.end(), nodes.begin(), nodes.end());
       mesh_.first_corner.push_back(static_cast<int>(mesh_.corners.size()));
       file_tags_.push_back(file_.element_tags[e]);
     }
+    if (n_reduced == 0) return;
+    note("{} of {} elements have repeated nodes: each is taken as the {} that is left of it", n_reduced,
+         mesh_.n_elements(), dim == 2 ? "triangle" : "wedge, pyramid or tetrahedron");
+  }
+
+  Corners corners_of(std::size_t element) const {
+    if (auto corners = without_repeated_nodes(file_.shapes[element], places_of(element))) return std::move(*corners);
+    const auto nodes = file_.element_nodes.begin();
+    fail("element {} has nodes {}, which are the corners of no {}", file_.element_tags[element],
+         fmt::join(nodes + static_cast<std::ptrdiff_t>(file_.first_node[element]),
+                   nodes + static_cast<std::ptrdiff_t>(file_.first_node[element + 1]), ", "),
+         dim == 2 ? "triangle or quadrangle" : "hexahedron, wedge, pyramid or tetrahedron");
   }
 
   int block_of(std::size_t element) const {
@@ -376,12 +379,14 @@ class MeshBuilder {
   }
 
   void add_to_set(std::size_t element, const GroupKey& group) {
-    const std::vector<int> nodes = used_nodes_of(element);
+    std::vector<int> places = places_of(element);
+    sort_unique(places, std::less<>());
+    const std::vector<int> nodes = used_nodes(places);
     Set& set = sets_[group];
     set.dimension = group.first;
     set.nodes.insert(set.nodes.end(), nodes.begin(), nodes.end());
-    if (group.first != dim - 1) return;
-    if (const Side side = side_with(nodes, element); side.element >= 0) {
+    if (group.first != dim - 1 || places.size() < dim) return;  // repeated nodes may leave nothing of a side
+    if (const Side side = nodes.size() < places.size() ? Side{-1, 0} : side_with(nodes); side.element >= 0) {
       set.sides.push_back(side);
     } else if (!set.element_without_side) {
       set.element_without_side = file_.element_tags[element];
@@ -409,6 +414,9 @@ class MeshBuilder {
       return note("the group \"{}\" has nodes but no sides: element {} of it is no side of any {}D element", name,
                   *set.element_without_side, dim);
     }
+    if (set.sides.empty()) {
+      return note("the group \"{}\" has nodes but no sides: repeated nodes leave nothing of them", name);
+    }
     std::vector<Side>& sides_of_set = mesh_.side_sets[name];
     sides_of_set.insert(sides_of_set.end(), set.sides.begin(), set.sides.end());
   }
@@ -423,8 +431,7 @@ class MeshBuilder {
   }
 
   /// A side with these nodes, of element -1 if there is none.
-  Side side_with(const std::vector<int>& nodes, std::size_t element) const {
-    if (static_cast<int>(nodes.size()) < n_nodes(file_.shapes[element])) return {-1, 0};
+  Side side_with(const std::vector<int>& nodes) const {
     const SideKey key = mesh::side_key(nodes);
     const auto found = std::lower_bound(sides_.begin(), sides_.end(), key,
                                         [](const KeyedSide& side, const SideKey& k) { return side.key < k; });
@@ -467,7 +474,7 @@ class MeshBuilder {
 
 template <int dim>
 Mesh<dim> build_mesh(const MeshFile& file, double scale) {
-  check_lengths(file);
+  file.check_lengths();
   PERIMORPH_ASSERT(scale > 0., "coordinates are scaled by {}", scale);
   return MeshBuilder<dim>(file, scale).build();
 }

@@ -25,6 +25,16 @@ mesh::ElementType element_type(Shape shape) {
   return static_cast<mesh::ElementType>(static_cast<int>(shape) - static_cast<int>(Shape::triangle));
 }
 
+void MeshFile::check_lengths() const {
+  const std::size_t n = n_elements();
+  PERIMORPH_ASSERT(node_tags.size() == coordinates.size(), "{} nodes, {} places", node_tags.size(), coordinates.size());
+  PERIMORPH_ASSERT(shapes.size() == n && element_groups.size() == n, "{} elements, {} shapes, {} groups", n,
+                   shapes.size(), element_groups.size());
+  PERIMORPH_ASSERT(first_node.size() == n + 1 && first_node.back() == element_nodes.size(),
+                   "{} elements, {} lists of nodes up to {} of {}", n, first_node.size(), first_node.back(),
+                   element_nodes.size());
+}
+
 void MeshFile::begin_element(std::int64_t tag, Shape shape, int group_list) {
   PERIMORPH_ASSERT(group_list >= 0 && group_list < static_cast<int>(group_lists.size()), "list {} of {} of groups",
                    group_list, group_lists.size());

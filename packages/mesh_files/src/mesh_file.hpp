@@ -54,6 +54,9 @@ struct MeshFile {
 
   std::size_t n_elements() const { return element_tags.size(); }
 
+  /// Asserts that lists that belong together have as many items.
+  void check_lengths() const;
+
   /// Adds an element; its nodes are then to be added to element_nodes, and end_element() called.
   void begin_element(std::int64_t tag, Shape shape, int group_list);
   void end_element() { first_node.push_back(element_nodes.size()); }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -17,6 +19,7 @@
 #include "file_cursor.hpp"
 #include "geometry_script.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/signals.hpp"
 #include "perimorph/mesh_files/gmsh.hpp"
 #include "text_fields.hpp"
 
@@ -55,6 +58,7 @@ struct Outcome {
   int start_error;  // errno if the program could not be started, otherwise 0
   int status;       // as of waitpid()
   std::string output;
+  bool was_ended;  // by this process, which did not want to wait any longer
 };
 
 /// Where the PATH has a program, or "".
@@ -69,11 +73,12 @@ std::string find_program(const std::string& name) {
   return "";
 }
 
-/// Runs a program to its end, without input; collects what it writes on both streams.
+/// Runs a program to its end, without input; collects what it writes on both streams. It is ended after some time, and
+/// if this process is asked to stop.
 /// @param command its file and arguments
-Outcome run(Words command, SideEffects side_effects) {
+Outcome run(Words command, const MeshingLimits& limits) {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return {errno, 0, ""};
+  if (pipe2(ends, O_CLOEXEC) != 0) return {errno, 0, "", false};
   Words environment = environment_without_mpi();
   const std::vector<char*> arguments = pointers(command), variables = pointers(environment);
   const pid_t process = fork();
@@ -82,15 +87,21 @@ Outcome run(Words command, SideEffects side_effects) {
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(ends[1], STDOUT_FILENO);
     dup2(ends[1], STDERR_FILENO);
-    if (side_effects == SideEffects::refused) forbid_other_programs(arguments[0]);
+    if (limits.side_effects == SideEffects::refused) forbid_other_programs(arguments[0]);
     execve(arguments[0], arguments.data(), variables.data());
     _exit(not_started);
   }
   const int start_error = process < 0 ? errno : 0;
   close(ends[1]);
-  Outcome outcome = {start_error, 0, ""};
+  Outcome outcome = {start_error, 0, "", false};
   if (process > 0) {
-    outcome.output = read_to_end(ends[0]);
+    const auto begin = std::chrono::steady_clock::now();
+    outcome.output = read_to_end(ends[0], [&] {
+      const std::chrono::duration<double, std::ratio<60>> minutes = std::chrono::steady_clock::now() - begin;
+      outcome.was_ended = minutes.count() > limits.minutes || base::Signals::is_stop_asked();
+      return !outcome.was_ended;
+    });
+    if (outcome.was_ended) kill(process, SIGKILL);
     outcome.status = wait_for(process);
   }
   close(ends[0]);
@@ -130,6 +141,16 @@ void refuse_commands(const std::string& geo_file) {
       command.rfind(geo_file + ":", 0) == 0 ? "" : geo_file + ": ", command));
 }
 
+[[noreturn]] void fail_to_wait(const std::string& geo_file, const MeshingLimits& limits) {
+  if (base::Signals::is_stop_asked()) {
+    throw base::ComputationError(geo_file + ": a signal asked the run to stop while gmsh meshed it");
+  }
+  throw base::UserError(
+      fmt::format("{}: gmsh was still meshing it after {} min, and was ended: either it loops for ever, or it needs a "
+                  "higher /Mesh/Maximum Meshing Minutes",
+                  geo_file, limits.minutes));
+}
+
 /// So that neither an older mesh nor what a failed gmsh left behind is taken for the result.
 void remove_quietly(const std::string& file) {
   std::error_code ignored;
@@ -140,10 +161,11 @@ void remove_quietly(const std::string& file) {
 
 bool is_geometry(const std::string& file) { return lower(std::filesystem::path(file).extension()) == ".geo"; }
 
-void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension, SideEffects side_effects) {
+void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int dimension,
+                   const MeshingLimits& limits) {
   PERIMORPH_ASSERT(dimension == 2 || dimension == 3, "a mesh of dimension {}", dimension);
   require_regular_file(geo_file, "a geometry of gmsh");
-  if (side_effects == SideEffects::refused) refuse_commands(geo_file);
+  if (limits.side_effects == SideEffects::refused) refuse_commands(geo_file);
   if (ignores_last_command(geo_file)) {
     throw base::UserError(
         geo_file +
@@ -155,9 +177,8 @@ void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int
   if (gmsh.empty()) {
     throw base::UserError(geo_file + ": gmsh is needed to mesh it, but is not installed (apt-get install gmsh)");
   }
-  const Outcome outcome =
-      run({gmsh, fmt::format("-{}", dimension), "-format", "msh41", "-bin", "-v", "2", geo_file, "-o", msh_file},
-          side_effects);
+  const Outcome outcome = run(
+      {gmsh, fmt::format("-{}", dimension), "-format", "msh41", "-bin", "-v", "2", geo_file, "-o", msh_file}, limits);
   if (outcome.start_error != 0) {
     throw base::UserError(
         fmt::format("{}: gmsh cannot be started: {}", geo_file, std::generic_category().message(outcome.start_error)));
@@ -165,6 +186,7 @@ void mesh_geometry(const std::string& geo_file, const std::string& msh_file, int
   std::error_code ignored;
   if (outcome.status != 0 || !std::filesystem::is_regular_file(msh_file, ignored)) {
     remove_quietly(msh_file);
+    if (outcome.was_ended) fail_to_wait(geo_file, limits);
     throw base::UserError(
         fmt::format("{}: {}. Its messages:\n{}", geo_file, how_it_ended(outcome), excerpt_of(outcome.output)));
   }

@@ -62,11 +62,11 @@ Mesh<dim> read_mesh(const std::string& file, double scale) {
 }
 
 template <int dim>
-Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale, SideEffects side_effects) {
+Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale, const MeshingLimits& limits) {
   const std::filesystem::path path(file);
   if (!is_geometry(file)) return read_mesh<dim>(file, scale);
   const std::string meshed = (std::filesystem::path(folder) / path.stem()).string() + ".msh";
-  mesh_geometry(file, meshed, dim, side_effects);
+  mesh_geometry(file, meshed, dim, limits);
   MeshFile mesh = read_meshed_geometry(meshed, file);
   for (const std::string& command : undone_commands(file)) {
     mesh.notes.push_back(fmt::format("{} has no effect: the geometry is meshed again after all its commands", command));
@@ -76,7 +76,7 @@ Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, doub
 
 template Mesh<2> read_mesh(const std::string&, double);
 template Mesh<3> read_mesh(const std::string&, double);
-template Mesh<2> mesh_and_read(const std::string&, const std::string&, double, SideEffects);
-template Mesh<3> mesh_and_read(const std::string&, const std::string&, double, SideEffects);
+template Mesh<2> mesh_and_read(const std::string&, const std::string&, double, const MeshingLimits&);
+template Mesh<3> mesh_and_read(const std::string&, const std::string&, double, const MeshingLimits&);
 
 }  // namespace perimorph::mesh_files

@@ -286,8 +286,12 @@ TEST(AnsysMesh, WaysOfWritingOneThingAreReadAlike) {
   const std::vector<std::pair<std::string, std::string>> changes = {
       {"et,5,PLANE42", "ETBLOCK,        1,        1\n(2i9,19a9)\n        5      182        0        0\n       -1"},
       {"et,5,PLANE42", "etblock,2,2\n(2i9,19a9)\n        5       42        0\n        6      154\n       -1"},
+      {"et,5,PLANE42",
+       "ETBLOCK,        2,        2\n(2i10,5a9)\n         5       182        0        0\n         7       184\n  -1"},
       {"et,5,PLANE42", "*set,mine,5\net,mine,182"},
       {"nblock,3,,6", "nblock,3,,140"},
+      {"nblock,3,,6", "nblock,3,,2"},
+      {"nblock,3,,6", "nblock,3"},
       {"nblock,3,,6", "NBLOCK,3,      ,       6,       3"},
       {nodes,
        "(1i7,2i9,6e21.13)\n      1        0        0\n      2        0        0 1.0000000000000E+000\n"
@@ -300,6 +304,12 @@ TEST(AnsysMesh, WaysOfWritingOneThingAreReadAlike) {
        "       3       0       0 2.000000000E+00\n      14       0       0 0.000000000E+00 1.000000000E+00\n"
        "      15       0       0 1.000000000E+00 1.000000000E+00\n"
        "      16       0       0 2.000000000E+00 1.000000000E+00\n"},
+      {nodes,
+       "(1i10,1i5,1i12,3e25.16)\n         1    0           0\n         2    0           0   1.0000000000000000E+00\n"
+       "         3    0           0   2.0000000000000000E+00\n"
+       "        14    0           0   0.0000000000000000E+00   1.0000000000000000E+00\n"
+       "        15    0           0   1.0000000000000000E+00   1.0000000000000000E+00\n"
+       "        16    0           0   2.0000000000000000E+00   1.0000000000000000E+00\n"},
       {"eblock,19,solid,,2\n(19i9)", "EBLOCK,19,SOLID,102,2\n(19i9)"},
   };
   for (const auto& [from, to] : changes) {
@@ -310,7 +320,9 @@ TEST(AnsysMesh, WaysOfWritingOneThingAreReadAlike) {
 
 /// Kinds for heat and fields, and those of meshes alone, whose first key option says what they are.
 TEST(AnsysMesh, KindsForOtherFieldsHaveTheSameShapes) {
-  expect_same_as_kind<2>(two_blocks, "182", {"55", "PLANE13", "SHELL181", "63", "MESH200,6", "200\nKEYOP, 1, 1, 6"});
+  expect_same_as_kind<2>(two_blocks, "182",
+                         {"55", "PLANE13", "SHELL181", "63", "MESH200,6", "200\nKEYOP, 1, 1, 6",
+                          "182\nETBLOCK,1,1\n(2i9,19a9)\n        1      200        6\n       -1"});
   expect_same_as_kind<3>(extruded_block, "185", {"70", "SOLID5", "SOLSH190", "MESH200,10", "200\nkeyopt,1,1,10"});
 }
 
@@ -401,6 +413,18 @@ TEST(AnsysErrors, OtherElements) {
   EXPECT_EQ(error_of(replaced(two_squares_cdb, "et,5", "et,6")),
             ":15: element 101 has type 5, which no ET command defines before it");
   EXPECT_THAT(error_of(replaced(two_squares_cdb, ",19,solid,", ",10,,")), HasSubstr(":15: EBLOCK without SOLID"));
+}
+
+/// By each way to set a key option; the others are plane stress and plane strain.
+TEST(AnsysErrors, AxisymmetricElements) {
+  for (const char* type : {"et,5,PLANE42,,,1", "et,5,182\nkeyopt,5,3,1", "et,5,PLANE183\nKEYOP,5,3,6",
+                           "ETBLOCK,1,1\n(2i9,19a9)\n        5       55        0        0        1\n       -1"}) {
+    EXPECT_THAT(error_of(replaced(two_squares_cdb, "et,5,PLANE42", type)),
+                HasSubstr("an axisymmetric one; allowed are plane elements of plane stress or plane strain"));
+  }
+  for (const char* type : {"et,5,182\nkeyopt,5,3,2", "et,5,182\nkeyopt,5,3,3", "et,5,181\nkeyopt,5,3,1"}) {
+    EXPECT_EQ(read_mesh<2>(written("plane.cdb", replaced(two_squares_cdb, "et,5,PLANE42", type))).n_elements(), 2);
+  }
 }
 
 TEST(AnsysErrors, CollapsedShapesThatAreNoElements) {

@@ -153,7 +153,7 @@ TEST(Geometry, CommandsRunIfTheyAreAllowed) {
   const std::string file = test_file("written"),
                     geo = written("plate.geo", square + "SystemCall \"touch " + file + "\";");
   std::filesystem::remove(file);
-  mesh_geometry(geo, test_file("plate.msh"), 2, SideEffects::allowed);
+  mesh_geometry(geo, test_file("plate.msh"), 2, {SideEffects::allowed});
   EXPECT_TRUE(std::filesystem::exists(file));
 }
 
@@ -195,6 +195,26 @@ TEST(Geometry, MessagesNameTheGeometryNotTheMeshMadeOfIt) {
   EXPECT_THAT(said_of<2>(nothing), testing::StartsWith(nothing + ": "));
   const std::string third = written("third.geo", square + "Mesh.ElementOrder = 3;");
   EXPECT_THAT(said_of<2>(third), HasSubstr("is of gmsh's kind"));
+}
+
+/// What gmsh goes on with for ever, each in its own way.
+TEST(Geometry, OneThatDoesNotEndIsEndedAndNamed) {
+  for (const std::string endless :
+       {"For i In {0:1}\n i = 0;\nEndFor\n", "For i In {0:1}\n i = 0; Printf(\"on\");\nEndFor\n", "Sleep 1000;\n",
+        "Macro again\n Call again;\nReturn\nCall again;\n"}) {
+    SCOPED_TRACE(endless);
+    const std::string geo = written("endless.geo", square + endless), msh = test_file("endless.msh");
+    try {
+      mesh_geometry(geo, msh, 2, {Shell::refused, 0.01});
+      ADD_FAILURE() << "it ended";
+    } catch (const base::UserError& error) {
+      EXPECT_EQ(error.what(),
+                geo +
+                    ": gmsh was still meshing it after 0.01 min, and was ended: either it loops for ever, "
+                    "or it needs a higher /Mesh/Maximum Meshing Minutes");
+    }
+    EXPECT_FALSE(std::filesystem::exists(msh));
+  }
 }
 
 TEST(Geometry, ALastCommandThatGmshPassesOverIsAnError) {

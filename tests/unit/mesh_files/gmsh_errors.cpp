@@ -129,7 +129,6 @@ TEST(GmshErrors, ElementsOfAnotherKind) {
 }
 
 TEST(GmshErrors, DegenerateElement) {
-  EXPECT_THAT(error_of(replaced(two_squares_2_2, "1 2 5 4", "1 2 2 4")), HasSubstr("element 12 is degenerate"));
   EXPECT_THAT(error_of(replaced(two_squares_2_2, "4 0 1 0", "4 0.5 0.5 0")), HasSubstr("element 12 is degenerate"))
       << "a corner of 180 degrees";
 }

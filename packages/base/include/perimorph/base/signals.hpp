@@ -24,6 +24,9 @@ class Signals {
   /// Collective.
   Requests look(const Comm& comm);
 
+  /// Whether a signal has asked this process to stop, for what waits where no other can be asked. Local.
+  static bool is_stop_asked();
+
  private:
   void (*old_terminate_)(int);
   void (*old_interrupt_)(int);

@@ -9,10 +9,9 @@ namespace perimorph::cases {
 
 /// Where the body comes from.
 struct MeshSource {
-  std::string file;   ///< in a case as read: resolved against the case file's folder
-  double scale = 1.;  ///< factor on its coordinates [-]
-  mesh_files::SideEffects side_effects =
-      mesh_files::SideEffects::refused;  ///< of a geometry; no parameter: a case must not allow itself
+  std::string file;                   ///< in a case as read: resolved against the case file's folder
+  double scale = 1.;                  ///< factor on its coordinates [-]
+  mesh_files::MeshingLimits meshing;  ///< of a geometry; side effects are no parameter: a case must not allow itself any
 };
 
 void declare(const input::Section& section, MeshSource& mesh);

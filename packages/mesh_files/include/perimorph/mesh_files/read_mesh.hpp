@@ -28,9 +28,9 @@ mesh::Mesh<dim> read_mesh(const std::string& file, double scale = 1.);
 /// geometry. Local.
 /// @param folder that exists, for the mesh of a geometry
 /// @param scale as for read_mesh() [-]
-/// @param side_effects whether the geometry may run commands and write files
+/// @param limits of a geometry
 template <int dim>
 mesh::Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale = 1.,
-                              SideEffects side_effects = SideEffects::refused);
+                              const MeshingLimits& limits = {});
 
 }  // namespace perimorph::mesh_files
