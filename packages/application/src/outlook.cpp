@@ -100,6 +100,7 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
     warn(log, input, {fmt::format("the elastic body cannot be solved: {}", error.what())});
     return;
   }
+  for (const auto& fallback : body.solver_fallbacks()) warn(log, input, {"/Solver: " + fallback});
   const double load = fracture::load_of_first_break(comm, body, problem.critical_stretch);
   if (std::isfinite(load)) {
     log->info("first break      at load {:.4g}, in increment {:.0f} of {:.0f}{}", load, std::max(1., std::ceil(load)),

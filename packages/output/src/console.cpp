@@ -60,9 +60,14 @@ void Console::warn_of_overlap(const IncrementRecord& record) {
       record.overlap, fmt::join(record.overlap_place, ", "));
 }
 
-void Console::show_progress(int increment, const discretization::Counts& counts) {
+void Console::show_progress(int increment, const discretization::Counts& counts,
+                            const std::vector<std::string>& fallbacks) {
   constexpr double patience = 60.;  // seconds without a line
   const double elapsed = profile_.elapsed();
+  for (; n_fallbacks_reported_ < fallbacks.size(); ++n_fallbacks_reported_) {
+    clear_progress();
+    options_.log->warn("warning: increment {}: /Solver: {}", increment, fallbacks[n_fallbacks_reported_]);
+  }
   if (elapsed - last_line_ > patience) {
     last_line_ = elapsed;
     options_.log->info("       in step {}: {} solves, {} broken bonds, {} discontinuous elements, {:.0f} s", increment,

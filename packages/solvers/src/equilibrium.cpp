@@ -4,6 +4,7 @@
 
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "perimorph/base/errors.hpp"
@@ -54,6 +55,10 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
   double last_residual = std::numeric_limits<double>::infinity();
   for (;;) {
     const auto norms = system.residual(residual);
+    if (!std::isfinite(norms.residual) || !std::isfinite(norms.reaction)) {
+      outcome.trouble = "the forces are no finite numbers: loads, stiffness or lengths are too large";
+      return outcome;
+    }
     if (outcome.linear_solves == 0) target.force_scale = std::max(target.force_scale, of_first_guess * norms.reaction);
     const double largest = target.tolerance * std::max(norms.reaction, target.force_scale);
     if (norms.residual <= largest) {

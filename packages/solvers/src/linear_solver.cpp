@@ -6,6 +6,7 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "perimorph/base/errors.hpp"
@@ -36,6 +37,17 @@ class InBasis : public Operator {
   mutable MultiVector input_, output_;
 };
 
+/// What a message of Trilinos says, without the place in its sources; in one line.
+std::string in_brief(const std::string& message) {
+  constexpr std::size_t longest = 300;
+  const std::size_t test = message.find("Throw test that evaluated to true:");
+  const std::size_t begin = test == std::string::npos ? 0 : std::min(message.find("\n\n", test), message.size());
+  std::istringstream words(message.substr(begin));
+  std::string text;
+  for (std::string word; words >> word;) text += (text.empty() ? "" : " ") + word;
+  return text.size() > longest ? text.substr(0, longest) + "..." : text;
+}
+
 /// What a library throws is a computation that cannot go on, unless there is no memory; what we throw remains what it
 /// is.
 template <class Work>
@@ -46,7 +58,7 @@ void translated(const char* what, const Work& work) {
     throw;
   } catch (const std::exception& error) {
     if (base::is_out_of_memory(error)) throw;
-    throw base::ComputationError(what + std::string(error.what()));
+    throw base::ComputationError(what + in_brief(error.what()));
   }
 }
 
@@ -105,7 +117,7 @@ LinearSolver::Outcome LinearSolver::solve(const MultiVector& right_hand_side, Mu
     is_last = is_last_resort();
     solution.putScalar(0.);
     outcome = attempt(right_hand_side, solution, relative_tolerance);
-    if (!outcome.converged) go_to_next_resort();
+    if (!outcome.converged) go_to_next_resort(outcome);
   }
   if (!outcome.converged) {
     outcome.trouble = fmt::format(
@@ -120,9 +132,24 @@ LinearSolver::Outcome LinearSolver::solve(const MultiVector& right_hand_side, Mu
 }
 
 /// What has failed is never kept: a factorization that is no longer of the present matrix is made once more.
-void LinearSolver::go_to_next_resort() {
+void LinearSolver::go_to_next_resort(const Outcome& failed) {
   condition_ = Condition::missing;
-  if (cycle_ != Cycle::one_level) cycle_ = cycle_ == Cycle::fast ? Cycle::robust : Cycle::one_level;
+  if (cycle_ == Cycle::one_level) return;
+  cycle_ = cycle_ == Cycle::fast ? Cycle::robust : Cycle::one_level;
+  note_fallback(failed);
+}
+
+void LinearSolver::note_fallback(const Outcome& failed) {
+  const bool is_first = cycle_ == Cycle::robust;
+  const std::string what = is_first ? "the usual multigrid" : "the robust multigrid";
+  const auto is_same = [&](const std::string& earlier) { return earlier.rfind(what, 0) == 0; };
+  if (std::any_of(fallbacks_.begin(), fallbacks_.end(), is_same)) return;
+  fallbacks_.push_back(fmt::format(
+      "{} failed ({}); instead {}", what,
+      failed.trouble.empty() ? fmt::format("no convergence in {} iterations", failed.iterations) : failed.trouble,
+      is_first          ? "a robust one serves, which is slower"
+      : is_factorized() ? "the matrix is factorized, on one rank"
+                        : "a single level serves, with which it takes many iterations"));
 }
 
 LinearSolver::Outcome LinearSolver::attempt(const MultiVector& right_hand_side, MultiVector& solution,

@@ -20,6 +20,9 @@ std::string refused_value(const std::string& name, const Teuchos::ParameterEntry
   if ((name == "max levels" || name == "Block Size") && Teuchos::getValue<int>(entry) < 1) {
     return fmt::format("found {}; allowed is 1 or more", Teuchos::getValue<int>(entry));
   }
+  if ((name == "rap: triple product" || name == "repartition: enable") && Teuchos::getValue<bool>(entry)) {
+    return "found true; allowed is false, since the cycle needs every level's matrices on every rank";
+  }
   if (name == "aggregation: type" && Teuchos::getValue<std::string>(entry) == "brick") {
     return "found \"brick\", which is for grids of regular shape only; \"uncoupled\" is usual";
   }

@@ -9,6 +9,7 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
 #include <cmath>
+#include <limits>
 
 namespace perimorph::tests {
 namespace {
@@ -126,6 +127,18 @@ TEST_F(Equilibrium, SaysThatItDidNotConvergeAndPutsTheAnchorsBack) {
   EXPECT_EQ(outcome.linear_solves, 10);
   EXPECT_THAT(outcome.trouble, testing::HasSubstr("the forces do not balance"));
   EXPECT_EQ(system.anchors, 1.);
+}
+
+TEST_F(Equilibrium, SaysThatForcesAreNoNumbers) {
+  for (const double stiffness : {1e308, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    Springs system(stiffness, 1.);
+    u.assign(u.size(), 1e10);
+
+    const auto outcome = find(system, 1e-12);
+
+    EXPECT_FALSE(outcome.converged);
+    EXPECT_THAT(outcome.trouble, testing::HasSubstr("the forces are no finite numbers"));
+  }
 }
 
 }  // namespace

@@ -162,6 +162,11 @@ TEST_F(LinearSolver, AFactorizationSolvesWhatMultigridDoesNotSolveInTime) {
     solver.solve(b, x, 1e-10);
     EXPECT_LE(residual(), 1.01e-10);
   }
+  EXPECT_THAT(solver.fallbacks(),
+              testing::ElementsAre("the usual multigrid failed (no convergence in 2 iterations); instead a robust one "
+                                   "serves, which is slower",
+                                   "the robust multigrid failed (no convergence in 2 iterations); instead the matrix "
+                                   "is factorized, on one rank"));
 }
 
 TEST_F(LinearSolver, AFactorizationSolvesWhereMultigridCannotBeSetUp) {
@@ -172,6 +177,17 @@ TEST_F(LinearSolver, AFactorizationSolvesWhereMultigridCannotBeSetUp) {
 
   solver.solve(b, x, 1e-10);
   EXPECT_LE(residual(), 1.01e-10);
+  ASSERT_EQ(solver.fallbacks().size(), 2u);
+  EXPECT_THAT(solver.fallbacks()[0],
+              testing::AllOf(testing::HasSubstr("failed (the preconditioner could not be set up: "),
+                             testing::HasSubstr("multigrid algorithm"), testing::Not(testing::HasSubstr("\n"))));
+}
+
+TEST_F(LinearSolver, WhatSolvesAtFirstFallsBackOnNothing) {
+  solvers::LinearSolver solver(comm, {}, profile);
+  use(solver, body);
+  solver.solve(b, x, 1e-10);
+  EXPECT_TRUE(solver.fallbacks().empty());
 }
 
 TEST_F(LinearSolver, AFactorizationAddsToAScaledVector) {

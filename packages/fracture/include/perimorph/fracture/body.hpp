@@ -84,6 +84,7 @@ class Body {
   const mesh::Mesh<dim>& mesh() const { return topology_.mesh(); }
   const Counts& counts() const { return state_.counts; }
   double load_factor() const { return state_.load_factor; }
+  const std::vector<std::string>& solver_fallbacks() const { return equilibrium_.linear_solver().fallbacks(); }
   /// On all local degrees of freedom, [length].
   base::ConstField displacement() const { return base::field(state_.displacement); }
 

@@ -34,7 +34,8 @@ class Console {
   void show(const IncrementRecord& record, base::GlobalId newly_broken);
 
   /// How far the current increment has come. Local.
-  void show_progress(int increment, const discretization::Counts& counts);
+  /// @param fallbacks of the solver so far; those that are new are reported
+  void show_progress(int increment, const discretization::Counts& counts, const std::vector<std::string>& fallbacks);
 
   /// Counts, memory, peak and last reactions, profile. Collective.
   void summarize(const base::Comm& comm, const discretization::Counts& counts, const Totals& totals,
@@ -49,6 +50,7 @@ class Console {
   double last_accepted_, last_line_;  ///< elapsed then, [s]
   std::size_t shown_reaction_ = 0;    ///< in the lines
   bool has_shown_header_ = false, has_warned_ = false;
+  std::size_t n_fallbacks_reported_ = 0;
 
   void clear_progress() const;
   void show_header(const std::vector<Reaction>& reactions);

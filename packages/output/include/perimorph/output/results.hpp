@@ -43,7 +43,7 @@ class Results {
 
   /// What the current increment is at. Local.
   void show_progress(int increment, const fracture::Body<dim>& body) {
-    console_.show_progress(increment, body.counts());
+    console_.show_progress(increment, body.counts(), body.solver_fallbacks());
   }
 
   /// Waits until the disk has all files as they are. Collective. @throws ComputationError if it fails.

@@ -26,6 +26,7 @@ class Equilibrium {
 
   /// The solver of the corrections; new operators and changed values are handed to it.
   LinearSolver& linear_solver() { return solver_; }
+  const LinearSolver& linear_solver() const { return solver_; }
 
   struct Outcome {
     bool converged;

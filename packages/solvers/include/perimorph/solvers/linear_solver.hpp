@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "perimorph/base/consensus.hpp"
 #include "perimorph/base/profile.hpp"
@@ -58,6 +60,9 @@ class LinearSolver {
   /// @throws MemoryError on all ranks if one has no memory left.
   Outcome solve(const MultiVector& right_hand_side, MultiVector& solution, double target);
 
+  /// What has failed so far and what was tried instead, in words, each kind once: it goes on, but takes longer. Local.
+  const std::vector<std::string>& fallbacks() const { return fallbacks_; }
+
  private:
   enum class Condition { missing, aged, good };
   using Cycle = Multigrid::Cycle;
@@ -77,10 +82,12 @@ class LinearSolver {
   std::optional<base::NodeWeights> moved_;  ///< to a new matrix since the last solve
   bool refreshed_ = false;                  ///< or moved since the last rebuild
   Cycle cycle_ = Cycle::fast;
+  std::vector<std::string> fallbacks_;
 
   bool is_factorized() const;
   bool is_last_resort() const { return cycle_ == Cycle::one_level && condition_ == Condition::missing; }
-  void go_to_next_resort();
+  void go_to_next_resort(const Outcome& failed);
+  void note_fallback(const Outcome& failed);
   void prepare();
   void set_up(const std::function<void()>& work);
   void build();
