@@ -132,6 +132,7 @@ int main(int argc, char** argv) {
   }
 
   std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is then an error in order, like a full disk
+  std::signal(SIGUSR1, SIG_IGN);  // as long as there is nothing to write into a checkpoint
   Tpetra::ScopeGuard mpi(&argc, &argv);
   const auto comm = Tpetra::getDefaultComm();
   const auto fail = [&](const char* kind, const std::exception& error, int status) {

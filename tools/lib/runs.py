@@ -247,6 +247,13 @@ def last_change(files):
     return max(os.stat(file).st_mtime_ns for file in files)
 
 
+def texts(variable):
+    """The texts that a netCDF variable of characters holds. (As text at once, letters of two bytes would shift all after them.)"""
+    import netCDF4
+
+    return [bytes(text).decode(errors="replace") for text in netCDF4.chartostring(variable[:], encoding="bytes").ravel()]
+
+
 class ExodusFile:
     """One file of a series, or the spread files that stand for it as if they were joined: nodes by their number, blocks
     one after the other, elements in each by their number. Read by netCDF; needs python3-netcdf4."""
@@ -275,11 +282,9 @@ class ExodusFile:
 
     def records(self, variable):
         """A variable of texts: "qa_records" (program, version, date, time), "info_records" (the resolved case), names."""
-        import netCDF4
-
         if variable not in self.data.variables:
             return []
-        return [str(text) for text in netCDF4.chartostring(self.data[variable][:]).ravel()]
+        return texts(self.data[variable])
 
     def names(self, variable):
         return [text.strip("\0 ") for text in self.records(variable)]

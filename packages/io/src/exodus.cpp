@@ -357,9 +357,11 @@ void ExodusSeries<dim>::start(const ExodusModel<dim>& model) {
   ++n_files_;
   n_steps_ = 0;
 
-  // The 64-bit-offset format needs neither HDF5 nor MPI, and is as fast.
+  // The 64-bit-offset format needs neither HDF5 nor MPI, and is as fast. netCDF drops blanks before a relative path,
+  // and takes one such as http://x for an address.
   int our_word_size = sizeof(double), file_word_size = sizeof(double);
-  exodus_id_ = ex_create(own_file(n_files_).c_str(), EX_CLOBBER | EX_LARGE_MODEL, &our_word_size, &file_word_size);
+  const std::string path = std::filesystem::absolute(own_file(n_files_)).lexically_normal();
+  exodus_id_ = ex_create(path.c_str(), EX_CLOBBER | EX_LARGE_MODEL, &our_word_size, &file_word_size);
   check(exodus_id_, "file");
   check(ex_set_max_name_length(exodus_id_, static_cast<int>(longest_name(model, names_))), "header");
 

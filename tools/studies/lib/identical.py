@@ -10,6 +10,8 @@ import h5py
 import netCDF4
 import numpy
 
+from runs import texts
+
 SECONDS = "wall_seconds"  # a column of history.csv and a global variable of the Exodus files
 RECORDS = ("qa_records", "info_records")  # of the Exodus files: program, date, resolved case
 OF_SECONDS = {"results", "tables"}  # in checkpoints: seconds, and checksums of tables that have them
@@ -80,10 +82,6 @@ def differing_lines(one, other):
 
 
 # --- Exodus ---
-
-
-def texts(variable):
-    return [str(text) for text in netCDF4.chartostring(variable[:]).ravel()]
 
 
 def differing_globals(one, other):
