@@ -3,15 +3,14 @@
     hardly_meant.py PERIMORPH MPIEXEC
 """
 
+import itertools
 import pathlib
 import subprocess
 import sys
 import unittest
 
-import netCDF4
-
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import CASE, MPIEXEC, PERIMORPH, TOOLS, Plate, changed, msh, settings, text_of
+from fixture import CASE, MPIEXEC, PERIMORPH, Plate, changed, msh, settings
 
 DISPLACEMENTS = "Boundary Conditions/Displacements"
 TIP = "Morphing/Seeds/tip"
@@ -54,6 +53,26 @@ class Grids:
         sides = [(1, 1, [first[0, j], first[0, j + 1]]) for j in range(rows)]
         sides += [(1, 2, [last[columns, j], last[columns, j + 1]]) for j in range(last_rows)]
         return msh(['1 1 "left"', '1 2 "right"', '2 3 "body"'], self.nodes, sides + self.elements)
+
+
+def blocks(*boxes, shared=()):
+    """A mesh of boxes of unit cubes (place of the lowest corner, numbers of cubes), each with nodes of its own, but for those at
+    places in `shared`; "left" is the first one's left face, "right" the last one's right face."""
+    nodes, cubes, faces, known = [], [], [], {}
+    for box, (low, counts) in enumerate(boxes):
+        at = {}
+        for step in itertools.product(*(range(n + 1) for n in counts)):
+            place = tuple(a + b for a, b in zip(low, step))
+            if place not in shared or place not in known:
+                nodes.append((len(nodes) + 1, *place))
+                known[place] = len(nodes)
+            at[step] = known[place]
+        ring = lambda i, j, k: [at[i, j, k], at[i + 1, j, k], at[i + 1, j + 1, k], at[i, j + 1, k]]
+        cubes += [(5, 3, ring(i, j, k) + ring(i, j, k + 1)) for i, j, k in itertools.product(*map(range, counts))]
+        for group, i in [(1, 0)] * (box == 0) + [(2, counts[0])] * (box == len(boxes) - 1):
+            faces += [(3, group, [at[i, j, k], at[i, j + 1, k], at[i, j + 1, k + 1], at[i, j, k + 1]])
+                      for j in range(counts[1]) for k in range(counts[2])]
+    return msh(['2 1 "left"', '2 2 "right"', '3 3 "body"'], nodes, faces + cubes)
 
 
 class Checked(Plate):
@@ -130,6 +149,36 @@ class Places(Checked):
         self.assert_refused("/Morphing/Seeds: no element is peridynamic", options=settings(f"{TIP}/Inner Radius=1.5"), ranks=[1])
 
 
+class PlacesIn3D(Checked):
+    """A block from (0, 0, 0) to (8, 6, 3), in elements of 1."""
+
+    CASE = changed(CASE, {"Dimension": 3, "Material/Poisson's Ratio": 0.25, "Material/Elastic Model": "Three-Dimensional",
+                          TIP: {"Shape": "Cylinder", "Start": [4, 3, 0], "End": [4, 3, 3], "Inner Radius": 3.0, "Outer Radius": 4.0},
+                          "Pre-Cracks/slit": {"Shape": "Polygon", "Points": [0, 3, 0, 4, 3, 0, 4, 3, 3, 0, 3, 3]},
+                          DISPLACEMENTS: held("left", "x", "y", "z") | moved("right", "x")})
+    MESH = blocks(((0, 0, 0), (8, 6, 3)))
+
+    def test_the_case_that_the_others_spoil_is_sound(self):
+        self.assertEqual(self.check().returncode, 0)
+
+    def test_pre_cracks_outside_the_body(self):
+        outside = {"a disc above it": {"Shape": "Disc", "Center": [4, 3, 30], "Normal": [0, 0, 1], "Radius": 2.0},
+                   "a polygon that was not scaled": {"Shape": "Polygon", "Points": [0, 30, 0, 40, 30, 0, 40, 30, 30, 0, 30, 30]},
+                   "a disc on its face": {"Shape": "Disc", "Center": [4, 3, 3], "Normal": [0, 0, 1], "Radius": 1.0}}
+        for what, crack in outside.items():
+            with self.subTest(what):
+                self.write_case({"Pre-Cracks/slit": crack})
+                self.assert_refused("/Pre-Cracks/slit: found a crack", "it is outside the body", ranks=[1])
+
+    def test_seeds_outside_the_body(self):
+        self.assert_refused("/Morphing/Seeds/tip: found a zone around", "it is outside the body",
+                            options=settings(f"{TIP}/Start={{4, 3, 40}}", f"{TIP}/End={{4, 3, 70}}"), ranks=[2])
+        for seed in [{"Shape": "Sphere", "Center": [4, 30, 1], "Inner Radius": 3.0, "Outer Radius": 4.0},
+                     {"Shape": "Box", "Lower Corner": [20, 0, 0], "Upper Corner": [24, 6, 3], "Rim": 1.0}]:
+            self.write_case({"Morphing/Seeds": {"tip": seed}})
+            self.assert_refused("/Morphing/Seeds/tip: found a zone around", ranks=[1])
+
+
 class Numbers(Checked):
     def test_a_horizon_of_absurd_length(self):
         for horizon in ["1e200", "1e155", "21"]:
@@ -150,9 +199,16 @@ class Numbers(Checked):
             self.assertEqual(run.returncode, 2, run.stdout)
             self.assertNotIn("bug", run.stderr)
 
+    def test_loads_that_are_too_large_for_any_number_end_in_order(self):
+        for rate in ["1e308", "-1.7e308"]:
+            run = self.run_case("--quiet", *settings(f"{DISPLACEMENTS}/pull up/Rate={rate}"), ranks=2)
+            self.assertEqual(run.returncode, 3, run.stdout + run.stderr)
+            self.assertIn("the forces are no finite numbers", run.stderr)
+
     def test_what_check_prints_is_finite(self):
         for options in [(), settings("Material/Young's Modulus=1e300"), settings("Material/Young's Modulus=1e-290"),
-                        settings(f"{DISPLACEMENTS}/pull up/Rate=1e200"), settings(f"{DISPLACEMENTS}/pull up/Rate=0", f"{DISPLACEMENTS}/pull down/Rate=0")]:
+                        settings(f"{DISPLACEMENTS}/pull up/Rate=1e200"),
+                        settings(f"{DISPLACEMENTS}/pull up/Rate=1e308"), settings(f"{DISPLACEMENTS}/pull up/Rate=0", f"{DISPLACEMENTS}/pull down/Rate=0")]:
             run = self.check(*options)
             self.assertNotRegex(run.stdout, r"(?i)\bnan\b|\binf\b", options)
 
@@ -178,7 +234,16 @@ class SolverLists(Checked):
             for value in [0, -1]:
                 self.assert_refused(f"/Solver/{parameter}: found {value}; allowed is 1 or more",
                                     options=settings(f"Solver/{parameter}={value}"), ranks=[1])
+        for parameter in ["rap: triple product", "repartition: enable"]:
+            self.assert_refused(f"/Solver/MueLu/{parameter}: found true; allowed is false", options=settings(f"Solver/MueLu/{parameter}=true"),
+                                ranks=[1])
         self.assert_refused('/Solver/MueLu/aggregation: type: found "brick"', options=settings("Solver/MueLu/aggregation: type=brick"))
+
+    def test_when_they_cannot_be_used_it_is_told_what_serves_instead(self):
+        """Not known before a preconditioner is made of them."""
+        for parameter in ["multigrid algorithm=foo", "cycle type=Z", "reuse: type=foo"]:
+            self.assert_warned("/Solver: the usual multigrid failed (the preconditioner could not be set up: ",
+                               options=settings("Solver/MueLu/coarse: max size=20", f"Solver/MueLu/{parameter}"))
 
     def test_names_that_they_know(self):
         options = settings("Solver/MueLu/max levels=3", "Solver/MueLu/smoother: params/relaxation: sweeps=2", "Solver/MueLu/sa: damping factor=1.2",
@@ -218,6 +283,17 @@ class Parts(Checked):
         self.write_mesh(seam)
         self.assert_warned("2 pairs of nodes lie at the same place, the first at (4, 2): the body is open there")
 
+    def test_a_seam_that_is_closed_at_both_ends(self):
+        self.write_mesh(Grids().add(0, 0, 4, 4).add(4, 0, 4, 4, shared={(4, 0), (4, 4)}))
+        self.assert_warned("3 pairs of nodes lie at the same place, the first at (4, 1): the body is open there")
+
+    def test_seams_that_cross(self):
+        grids = Grids().add(0, 0, 2, 2)
+        for x, y in [(2, 0), (0, 2), (2, 2)]:
+            grids.add(x, y, 2, 2, shared={(2, 0), (2, 4), (0, 2), (4, 2)})
+        self.write_mesh(grids)
+        self.assert_warned("lie at the same place", "the body is open there")
+
     def test_parts_that_are_apart_or_connected_are_none_of_these(self):
         for grids in [Grids().add(0, 0, 4, 4).add(4.5, 0, 4, 4),
                       Grids().add(0, 0, 4, 4).add(4, 0, 4, 4, shared={(4, j) for j in range(5)})]:
@@ -254,6 +330,40 @@ class Parts(Checked):
         self.assert_warned("the body has hinges: at 2 nodes")  # both ends are held
         self.write_case({DISPLACEMENTS: held("left", "x", "y")})
         self.assert_refused("part 2 of 3 of the body", "part 3 of 3 of the body", ranks=[1])
+
+
+class PartsIn3D(Checked):
+    """Two blocks of 3 x 2 x 2 elements."""
+
+    CASE = changed(PlacesIn3D.CASE, {"Pre-Cracks": None, "Morphing/Seeds": {}, "Material/Critical Stretch": None, "Loading/Increments": 1,
+                                     "Peridynamics/Horizon": 1.5, DISPLACEMENTS: held("left", "x", "y", "z")
+                                     | held("right", "y", "z") | moved("right", "x")})
+    FIRST = (0, 0, 0), (3, 2, 2)
+
+    def write_mesh(self, low, shared=()):
+        (self.folder / "plate.msh").write_text(blocks(self.FIRST, (low, (3, 2, 2)), shared=shared))
+
+    def test_parts_that_touch_or_overlap(self):
+        for low, what in [((3, 0, 0), "touch at 18 nodes, the first at (3, 0, 0), but share none"), ((3, 0.5, 0.5), "touch at"),
+                          ((1.5, 0.5, 0.5), "overlap at"), ((3, 2, 2), "touch at 2 nodes, the first at (3, 2, 2), but share none")]:
+            with self.subTest(low=low):
+                self.write_mesh(low)
+                self.assert_warned(what)
+
+    def test_hinges(self):
+        free = {DISPLACEMENTS: held("left", "x", "y", "z")}
+        node, edge = {(3, 2, 2)}, {(3, 2, 0), (3, 2, 1), (3, 2, 2)}
+        for low, shared, what in [((3, 2, 2), node, "the node at (3, 2, 2)"), ((3, 2, 0), edge, "the node at (3, 2, 0)")]:
+            with self.subTest(shared=shared):
+                self.write_case()
+                self.write_mesh(low, shared)
+                self.assert_warned("the body has hinges: ")
+                self.write_case(free)
+                self.assert_refused("can move: it hangs on the rest by a hinge", what, ranks=[1])
+
+    def test_parts_that_are_connected_are_none_of_these(self):
+        self.write_mesh((3, 0, 0), {(3, j, k) for j in range(3) for k in range(3)})
+        self.assert_not_warned("warning")
 
 
 class Supports(Checked):
@@ -308,61 +418,6 @@ class Plausibility(Checked):
         self.write_case({"Morphing/Seeds": {"where": {"Shape": "Automatic", "Inner Radius": 14.0, "Outer Radius": 20.0}}})
         self.assert_warned("/Morphing/Seeds: automatic seeds cover 100 % of the elements")
         self.assert_not_warned("automatic seeds cover", *settings("Morphing/Seeds/where/Inner Radius=4", "Morphing/Seeds/where/Outer Radius=8"))
-
-
-class Words(Checked):
-    """What a case or a mesh says reaches terminal and results as it is meant."""
-
-    def test_a_title_does_not_steer_the_terminal(self):
-        title = "\x1b]0;owned\x07\x1b[31mred\u009b1m"
-        for run in [self.check(*settings(f"Title={title}")), self.run_case("--no-progress", *settings(f"Title={title}"))]:
-            self.assertEqual(run.returncode, 0, run.stderr)
-            self.assertIn("\\x1b]0;owned\\x07\\x1b[31mred\\u009b1m", run.stdout)
-            self.assertNotRegex(run.stdout, "[\x1b\x07\u009b]")
-        self.assertNotIn("\x1b", (self.output / "run.log").read_text())
-
-    def test_nor_do_names_in_a_mistake(self):
-        run = self.check(*settings("Output/Reactions={\x1b[31m}"))
-        self.assertEqual(run.returncode, 2)
-        self.assertNotIn("\x1b", run.stderr)
-
-    def test_groups_with_long_names_that_differ_at_the_end_only(self):
-        long = "g" * 180
-        (self.folder / "plate.msh").write_text(self.MESH.replace('"lower"', f'"{long}1"').replace('"upper"', f'"{long}2"'))
-        self.write_case({f"{DISPLACEMENTS}/pull down/Group": long + "1", f"{DISPLACEMENTS}/pull up/Group": long + "2"})
-        self.assertEqual(self.run_case("--quiet").returncode, 0)
-        with netCDF4.Dataset(self.series()[0]) as file:
-            self.assertTrue({long + "1", long + "2"} <= set(text_of(file["ns_names"])))
-            self.assertTrue({f"reaction_{long}{k}_y" for k in "12"} <= set(text_of(file["name_glo_var"])))
-
-    def test_a_group_of_the_mesh_called_as_the_surface_of_cracks(self):
-        (self.folder / "plate.msh").write_text(self.MESH.replace('"right"', '"broken_surface"'))
-        self.write_case({f"{DISPLACEMENTS}/hold {c}/Group": "broken_surface" for c in "xy"})
-        self.assert_warned('/Mesh/File: the sides of the mesh\'s group "broken_surface" are called "broken_surface_of_mesh" in results')
-        with netCDF4.Dataset(self.series()[0]) as file:
-            sizes = {name: len(file.dimensions[f"num_side_ss{k}"]) if f"num_side_ss{k}" in file.dimensions else 0
-                     for k, name in enumerate(text_of(file["ss_names"]), 1)}
-        self.assertEqual(sizes, {"broken_surface": 0, "broken_surface_of_mesh": 12})
-
-    def test_the_summary_leaves_out_reactions_that_are_rounding(self):
-        self.write_case({DISPLACEMENTS: held("right", "x") | held("lower", "y") | moved("upper", "y", 0.2)})
-        run = self.run_case("--no-progress", *settings("Loading/Increments=1"))
-        listed = [line.split()[1] for line in run.stdout.splitlines() if line.startswith("reaction ")]
-        self.assertEqual(listed, ["lower_y", "upper_y"] if "right_x" not in listed else listed)
-        peaks = [abs(float(line.split()[3])) for line in run.stdout.splitlines() if line.startswith("reaction ")]
-        self.assertGreater(min(peaks), 1e-5 * max(peaks))
-
-    def test_more_ranks_than_elements_write_spread_files(self):
-        (self.folder / "plate.msh").write_text(Grids().add(0, 0, 3, 1).text())
-        self.write_case({"Pre-Cracks": None, "Morphing/Seeds": {"all": {"Shape": "Everything"}},
-                         DISPLACEMENTS: held("left", "x", "y") | moved("right", "x", 0.001), "Output/Spread Files": True})
-        run = self.run_case("--quiet", ranks=4)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(len(self.series()), 4)
-        joined = subprocess.run([TOOLS / "join", self.output], capture_output=True, text=True, timeout=60)
-        self.assertEqual(joined.returncode, 0, joined.stderr)
-        with netCDF4.Dataset(self.output / "plate.e") as file:
-            self.assertEqual(len(file.dimensions["num_elem"]), 3)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ hang, no trace of a crash, and little memory.
 import os
 import pathlib
 import resource
+import signal
 import subprocess
 import sys
 import unittest
@@ -213,8 +214,26 @@ class Geometries(Program):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertTrue((self.output / "plate.msh").is_file())
 
+    ENDLESS = f"{PLATE}For i In {{1:2000000000}}\n x = i;\nEndFor\n"
+
+    def test_one_that_loops_for_ever_is_ended_and_named(self):
+        self.write("plate.geo", self.ENDLESS)
+        self.assert_refused("plate.geo: gmsh was still meshing it after 0.02 min, and was ended", "/Mesh/Maximum Meshing Minutes",
+                            options=settings("Mesh/Maximum Meshing Minutes=0.02"))
+
+    def test_a_signal_ends_a_run_that_waits_for_gmsh(self):
+        self.write("plate.geo", self.ENDLESS)
+        command = [MPIEXEC, "-n", "2", PERIMORPH, "run", self.case, "--output", self.output]
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as run:
+            meshes = ["pgrep", "-f", f"gmsh .*{self.folder}"]
+            self.assertTrue(until(lambda: subprocess.run(meshes, capture_output=True).returncode == 0))
+            for rank in pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split():
+                os.kill(int(rank), signal.SIGTERM)
+            self.assertIn("a signal asked the run to stop while gmsh meshed it", run.communicate(timeout=30)[1])
+        self.assertEqual(run.returncode, 3)
+
     def test_gmsh_does_not_outlive_the_program(self):
-        self.write("plate.geo", f"{self.PLATE}For i In {{1:2000000000}}\n x = i;\nEndFor\n")
+        self.write("plate.geo", self.ENDLESS)
         gmsh = ["pgrep", "-f", f"gmsh .*{self.folder}"]
         meshes = lambda: subprocess.run(gmsh, capture_output=True).returncode == 0
         with subprocess.Popen([PERIMORPH, "check", self.case], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
@@ -295,6 +314,12 @@ class Folders(Program):
     def test_a_file_in_the_way(self):
         self.refused_output("plate.msh", "plate.msh: the output folder cannot be made")
         self.assertEqual((self.folder / "plate.msh").read_text(), MSH)
+
+    def test_names_that_netcdf_reads_otherwise(self):
+        for name in [" blank", "http://host/out", "[mode]file", "out#mode=zarr", " "]:
+            run = self.perimorph("run", self.case, "--output", name, "--quiet")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertTrue((self.folder / name / "plate.e").is_file(), name)
 
     def test_where_nothing_can_be_written(self):
         self.refused_output("/proc/perimorph", "/proc/perimorph: the output folder cannot be made")

@@ -17,9 +17,10 @@ from fixture import CASE, EVERY, SLOWLY, GrowingCrack, changed, msh, plate_mesh,
 NX, NY, NZ = 10, 8, 2  # cubes of size 1
 
 
-def mesh(is_mixed=False):
+def mesh(is_mixed=False, size=(NX, NY, NZ)):
     """gmsh's format 2.2: block "body", the right face "right", the two left edges "lower" and "upper". If it is mixed, two
     cubes are cut into wedges, and one into pyramids and tetrahedra around its middle."""
+    NX, NY, NZ = size
     names = ['1 1 "lower"', '1 2 "upper"', '2 3 "right"', '3 4 "body"']
     node = lambda i, j, k: (k * (NY + 1) + j) * (NX + 1) + i + 1
     nodes = [(node(i, j, k), i, j, k) for k in range(NZ + 1) for j in range(NY + 1) for i in range(NX + 1)]
@@ -128,6 +129,26 @@ class Runs(InThreeDimensions):
         places = numpy.column_stack([file[f"coord{c}"][:] for c in "xyz"])
         return numpy.array([places[corners[e - 1][self.HEX_SIDES[s - 1]]]
                             for e, s in zip(file[f"elem_ss{number}"][:], file[f"side_ss{number}"][:])])
+
+    def test_small_blocks_on_many_ranks(self):
+        """The aggregates of multigrid are then as small as they get, and some ranks have none on coarse levels."""
+        for nx, ny, nz in [(8, 6, 3), (6, 6, 4), (9, 5, 2)]:
+            with self.subTest(size=(nx, ny, nz)):
+                (self.folder / "plate.msh").write_text(mesh(size=(nx, ny, nz)))
+                tip = [4, ny // 2]
+                self.write_case({
+                    "Loading/Increments": 6,
+                    "Morphing/Seeds/tip": {"Shape": "Cylinder", "Start": [*tip, 0], "End": [*tip, nz], "Inner Radius": 3.0, "Outer Radius": 4.0},
+                    "Pre-Cracks/slit/Points": [0, tip[1], 0, *tip, 0, *tip, nz, 0, tip[1], nz],
+                    "Boundary Conditions/Displacements/pull down/Rate": -0.12,
+                    "Boundary Conditions/Displacements/pull up/Rate": 0.12})
+                broken = []
+                for ranks in [4, 1]:
+                    run = self.run_case("--quiet", ranks=ranks, timeout=120)
+                    self.assertEqual(run.returncode, 0, run.stderr)
+                    broken.append([row["broken_bonds"] for row in self.history()])
+                self.assertEqual(*broken)
+                self.assertGreater(int(broken[0][-1]), 0)
 
     def test_check_says_what_the_case_would_cost(self):
         run = self.perimorph("check", self.case)

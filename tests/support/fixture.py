@@ -97,7 +97,7 @@ def plate_mesh(columns=N):
 
 def text_of(variable):
     """The names that a variable of characters holds."""
-    return [str(name) for name in netCDF4.chartostring(variable[:])]
+    return [bytes(name).decode() for name in netCDF4.chartostring(variable[:], encoding="bytes")]
 
 
 def until(condition, seconds=60):

@@ -7,7 +7,7 @@ import subprocess
 import netCDF4
 import numpy
 
-from fixture import EVERY, GrowingCrack, changed
+from fixture import EVERY, GrowingCrack, changed, text_of
 
 EXPORTS = {"Crack": True, "Bonds": [2, 13], "Probes": {"ahead": {"Points": [7.25, 6.25, 12, 6.25], "Divisions": 4}}}
 
@@ -27,7 +27,7 @@ def steps_in(file):
     """(time, {variable: values}) of each step of an Exodus file, but for the seconds."""
     with netCDF4.Dataset(file) as data:
         data.set_auto_mask(False)
-        seconds = [str(name) for name in netCDF4.chartostring(data["name_glo_var"][:])].index("wall_seconds")
+        seconds = text_of(data["name_glo_var"]).index("wall_seconds")
         for index, time in enumerate(data["time_whole"][:]):
             values = {name: data[name][index] for name in data.variables if name.startswith("vals_")}
             values["vals_glo_var"] = numpy.delete(values["vals_glo_var"], seconds)

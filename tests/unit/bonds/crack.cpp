@@ -37,6 +37,28 @@ TEST(CrackSize, OfASlantingCrackIsThatOfTheLineAndNotOfItsStairs) {
   EXPECT_NEAR(bonds::crack_size(staircase(20, 2, 1), 3.), std::hypot(40., 20.), 0.03 * std::hypot(40., 20.));
 }
 
+/// Along a circle around the origin, from its right to its top: up as long as the step stays within it, or else to the
+/// left.
+std::vector<Side> stairs_of_a_quarter(double radius) {
+  std::vector<Side> sides;
+  for (Point2 x(radius, 0.); x[0] > 0.;) {
+    const auto n = static_cast<GlobalId>(sides.size());
+    const Point2 up = x + Point2(0., 1.), left = x - Point2(1., 0.);
+    const Point2 next = std::abs(up.norm() - radius) < std::abs(left.norm() - radius) ? up : left;
+    sides.push_back({n, n + 1, 2, {{{x[0], x[1]}, {next[0], next[1]}}}});
+    x = next;
+  }
+  return sides;
+}
+
+TEST(CrackSize, OfACurvedCrackIsThatOfTheCurve) {
+  for (const double radius : {15., 20., 40.}) {
+    const auto sides = stairs_of_a_quarter(radius);
+    EXPECT_NEAR(static_cast<double>(sides.size()), 2. * radius, 1.);
+    EXPECT_NEAR(bonds::crack_size(sides, 3.), 0.5 * M_PI * radius, 0.04 * 0.5 * M_PI * radius);
+  }
+}
+
 TEST(CrackSize, OfTwoCracksFarApartIsTheirSum) {
   auto sides = staircase(10, 1, 0);
   for (auto side : staircase(10, 0, 1)) {

@@ -30,9 +30,12 @@ TEST(DecidingLines, HaveNotHowFarItGoesHowItIsSolvedAndWhatIsWritten) {
 }
 
 TEST(DecidingLines, ATitleWithABlankLineHidesNothing) {
-  const std::string title = "Title=one\n\ntwo";
-  EXPECT_EQ(lines(), lines({title}));
-  EXPECT_NE(lines({title}), lines({title, "Peridynamics/Horizon=1.6"}));
+  for (const std::string text :
+       {"one\n\ntwo", "\n", "\n\n\n/Peridynamics/Horizon = 1\n\n", "one\r\n\r\n/Title = two", "{\n\n}"}) {
+    const std::string title = "Title=" + text;
+    EXPECT_EQ(lines(), lines({title}));
+    EXPECT_NE(lines({title}), lines({title, "Peridynamics/Horizon=1.6"}));
+  }
 }
 
 }  // namespace
