@@ -182,10 +182,10 @@ class Reader {
       const std::vector<std::int64_t> numbers = integers(line, format);
       if (numbers.empty() || numbers[0] == -1) return;
       if (numbers.size() < 2) cursor_.fail("ETBLOCK has a line without a number and an element type");
-      const int first = format.integers[0] + format.integers[1];
+      const int width = format.others.empty() ? format.integers.back() : format.others[0];
       const auto option = [&](int which) {
-        const int width = format.others.empty() ? format.integers.back() : format.others[0];
-        const std::string text = trimmed(column(line, static_cast<std::size_t>(first + (which - 1) * width), width));
+        const int begin = format.integers[0] + format.integers[1] + (which - 1) * width;
+        const std::string text = trimmed(column(line, static_cast<std::size_t>(begin), width));
         return static_cast<int>(number_or_parameter(text).value_or(0));
       };
       types_[numbers[0]] = {static_cast<int>(numbers[1] % 100000), option(1), option(3)};

@@ -205,7 +205,7 @@ TEST(Geometry, OneThatDoesNotEndIsEndedAndNamed) {
     SCOPED_TRACE(endless);
     const std::string geo = written("endless.geo", square + endless), msh = test_file("endless.msh");
     try {
-      mesh_geometry(geo, msh, 2, {Shell::refused, 0.01});
+      mesh_geometry(geo, msh, 2, {SideEffects::refused, 0.01});
       ADD_FAILURE() << "it ended";
     } catch (const base::UserError& error) {
       EXPECT_EQ(error.what(),

@@ -9,9 +9,10 @@ namespace perimorph::cases {
 
 /// Where the body comes from.
 struct MeshSource {
-  std::string file;                   ///< in a case as read: resolved against the case file's folder
-  double scale = 1.;                  ///< factor on its coordinates [-]
-  mesh_files::MeshingLimits meshing;  ///< of a geometry; side effects are no parameter: a case must not allow itself any
+  std::string file;   ///< in a case as read: resolved against the case file's folder
+  double scale = 1.;  ///< factor on its coordinates [-]
+  /// For a geometry. Side effects are no parameter: a case must not allow itself any.
+  mesh_files::MeshingLimits meshing;
 };
 
 void declare(const input::Section& section, MeshSource& mesh);
