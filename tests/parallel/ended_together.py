@@ -81,7 +81,9 @@ class Signalled(Started):
         while not self.has_rows(2):
             self.assertIsNone(run.poll())
             run.send_signal(signal.SIGUSR1)
-            time.sleep(0.02)
+            time.sleep(0.05)
+        time.sleep(1)  # until they have been passed on
+        self.assertIsNone(run.poll())
         run.terminate()
         self.assertEqual(run.wait(SECONDS), 3)
 
