@@ -366,6 +366,62 @@ TEST_F(CaseFile, AMatrixCannotHoldDilatation) {
   EXPECT_EQ(read(valid, {"Solver/Operator=CRS"}).numerical.operator_form, perimorph::operators::OperatorForm::crs);
 }
 
+// --- several materials ---
+
+const std::string with_steel = R"xml(<ParameterList name="Materials">
+    <ParameterList name="steel">
+      <Parameter name="Blocks" type="Array(string)" value="{BLOCK}"/>
+      <Parameter name="Young's Modulus" type="double" value="210000"/>
+      <Parameter name="Poisson's Ratio" type="double" value="0.3"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Peridynamics">)xml";
+
+/// The valid case with steel in its only block.
+std::string steel_in(const std::string& block) {
+  return replaced(valid, R"xml(<ParameterList name="Peridynamics">)xml", replaced(with_steel, "BLOCK", block));
+}
+
+TEST_F(CaseFile, AMaterialFillsBlocksOfTheMesh) {
+  const perimorph::cases::Case input = read(steel_in("body"));
+  ASSERT_EQ(input.materials.size(), 1u);
+  EXPECT_EQ(input.materials[0].name, "steel");
+  EXPECT_EQ(input.materials[0].youngs_modulus, 210000.);
+  EXPECT_FALSE(input.materials[0].breaks());
+  EXPECT_THAT(error(steel_in("boddy"), {"Solver/Tolerence=1"}),  // the mesh is read beside other mistakes
+
+              HasSubstr("/Materials/steel/Blocks: the mesh plate.msh has no group of elements "
+                        "called \"boddy\"; it has"));
+}
+
+TEST_F(CaseFile, MistakesOfMaterialsAreNamed) {
+  const std::string path = "Materials/steel/",
+                    pair = "Interfaces/bond/Materials=", energy = "Interfaces/bond/Fracture Energy=1";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
+      {{path + "Poisson's Ratio=0.7"}, "/Materials/steel/Poisson's Ratio: found 0.7; allowed are ratios above -1"},
+      {{path + "Blocks={}"}, "/Materials/steel/Blocks: found none; allowed are the names of one block or more"},
+      {{path + "Blocks={body, body}"}, "/Materials/steel/Blocks: found \"body\", which /Materials/steel fills already"},
+      {{path + "Critical Stretch=0.1", path + "Fracture Energy=1"}, "/Materials/steel/Fracture Energy: found beside"},
+      {{path + "Characteristic Length=3"},
+       "/Materials/steel/Characteristic Length: found 3; allowed is below the horizon"},
+      {{"Material/Name=steel"}, "/Material/Name: found \"steel\", which is the name of /Materials/steel too"},
+      {{pair + "{body, steel}"}, "/Interfaces/bond/Fracture Energy: missing, and so is \"Critical Stretch\""},
+      {{pair + "{body, stel}", energy}, "/Interfaces/bond/Materials: found \"stel\"; the materials are \"body\""},
+      {{pair + "{steel, steel}", energy},
+       "/Interfaces/bond/Materials: found {steel, steel}; allowed are the names of two"},
+      {{pair + "{steel, body}", energy, "Interfaces/twice/Materials={body, steel}",
+        "Interfaces/twice/Fracture Energy=1"},
+       "/Interfaces/twice/Materials: found a pair that /Interfaces/bond has already"},
+      {{"Boundary Conditions/Self-Weight/Constant={0, -9810}"},
+       "/Material/Density: found 0; /Boundary Conditions/Self-Weight needs a density above 0"},
+      {{"Boundary Conditions/Self-Weight/Constant={0, -9810, 0}", "Material/Density=1", path + "Density=1"},
+       "/Boundary Conditions/Self-Weight/Constant: found"},
+  };
+  for (const auto& [settings, message] : mistakes) {
+    EXPECT_THAT(error(steel_in("body"), settings), HasSubstr(message)) << settings[0];
+  }
+}
+
 // --- several mistakes ---
 
 TEST_F(CaseFile, AllMistakesAreListedInOneGoByLine) {

@@ -28,6 +28,7 @@ struct Setup {
   std::vector<mesh::CrackFacet<2>> pre_cracks = {};
   bonds::StiffnessStorage kept = bonds::StiffnessStorage::stored;
   double poissons_ratio = 1. / 3.;
+  double stiffer = 1.;  ///< by how much the elements of odd ids are, with a longer characteristic length; 1: all alike
 };
 
 struct CoupledBody {
@@ -64,12 +65,12 @@ struct CoupledBody {
         c0(materials::calibrate<2>(elastic_model, youngs_modulus, setup.poissons_ratio, setup.characteristic_length,
                                    setup.horizon)),
         topology(comm, mesh,
-                 {setup.zones, setup.pre_cracks, c0, morphing::BlendingFunction::linear,
+                 {setup.zones, setup.pre_cracks, bond_materials(setup), morphing::BlendingFunction::linear,
                   setup.whole_zone_discontinuous ? discretization::DiscontinuousElements::whole_zone
                                                  : discretization::DiscontinuousElements::on_damage,
                   2., 4., 2, setup.kept}),
         dirichlet(*comm, mesh, setup.prescribed),
-        elasticity(e0, setup.policy, materials::dilatational_ratio(elastic_model, setup.poissons_ratio) / 4.) {
+        elasticity(elasticities(setup), of_elements(setup), setup.policy) {
     topology.update(topology.grow({}));
     elasticity.update(mesh, points, bonds, alpha, classes, discontinuous);
     dofs = &topology.dofs();
@@ -78,6 +79,20 @@ struct CoupledBody {
   }
   CoupledBody(const CoupledBody&) = delete;
   CoupledBody& operator=(const CoupledBody&) = delete;
+
+  /// Which of two materials each local element has; empty if all are alike.
+  std::vector<int> of_elements(const Setup& setup) const {
+    std::vector<int> places;
+    for (const auto id : mesh.element_ids) places.push_back(id % 2 != 0 && setup.stiffer != 1. ? 1 : 0);
+    return places;
+  }
+  materials::BondMaterials bond_materials(const Setup& setup) const {
+    return {{c0, {setup.stiffer * c0.tau0, 1.1 * c0.characteristic_length, c0.horizon}}, of_elements(setup)};
+  }
+  std::vector<operators::Elasticity<2>> elasticities(const Setup& setup) const {
+    const double factor = materials::dilatational_ratio(elastic_model, setup.poissons_ratio) / 4.;
+    return {{e0, factor}, {setup.stiffer * e0, factor}};
+  }
 
   operators::CoupledModel<2> model() const { return {mesh, points, bonds, alpha, elasticity, *dofs}; }
 

@@ -40,6 +40,9 @@ struct SpecimenIn {
   int points_per_direction = 2;
   std::optional<double> poissons_ratio = {};  ///< none: what bonds alone have
   morphing::BlendingFunction blending_function = morphing::BlendingFunction::linear;
+  std::vector<materials::Material<dim>> others = {};   ///< beside the body's
+  std::map<std::string, int> material_of_block = {};   ///< 1: the first of the others
+  std::optional<materials::Toughness> interface = {};  ///< between any two materials; none: perfect
 };
 using Specimen = SpecimenIn<2>;
 
@@ -48,19 +51,29 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   const auto model = specimen.elastic_model;
   const double youngs_modulus = specimen.youngs_modulus;
   const double poissons_ratio = specimen.poissons_ratio.value_or(materials::bond_based_poissons_ratio(model));
-  const double ratio = materials::dilatational_ratio(model, poissons_ratio);
-  const auto c0 = materials::calibrate<dim>(model, youngs_modulus, poissons_ratio, specimen.characteristic_length,
-                                            specimen.horizon);
-  return {materials::elasticity_tensor<dim>(model, youngs_modulus, poissons_ratio),
-          ratio,
-          c0,
-          specimen.critical_stretch,
-          materials::fracture_energy<dim>(c0, specimen.critical_stretch, ratio),
-          specimen.seeds,
-          specimen.pre_cracks,
-          specimen.displacements,
-          discretization::Loads<dim>(specimen.tractions, {specimen.body_force_rate, base::Point<dim>::Zero()}),
-          specimen.is_proportional};
+  auto material = materials::elastic_material<dim>(model, youngs_modulus, poissons_ratio,
+                                                   specimen.characteristic_length, specimen.horizon);
+  material.toughness = {
+      specimen.critical_stretch,
+      materials::fracture_energy<dim>(material.micromodulus, specimen.critical_stretch, material.dilatational_ratio)};
+  std::vector<materials::Material<dim>> all = {std::move(material)};
+  all.insert(all.end(), specimen.others.begin(), specimen.others.end());
+  std::vector<materials::Interface> interfaces;
+  for (int m = 0; m < static_cast<int>(all.size()); ++m) {
+    for (int n = m + 1; n < static_cast<int>(all.size()); ++n) {
+      interfaces.push_back({m, n, specimen.interface.value_or(materials::perfect_interface(all[m], all[n]))});
+    }
+  }
+  model::Problem<dim> problem{
+      std::move(all),
+      specimen.seeds,
+      specimen.pre_cracks,
+      specimen.displacements,
+      discretization::Loads<dim>(specimen.tractions, {specimen.body_force_rate, base::Point<dim>::Zero()}),
+      specimen.is_proportional};
+  problem.material_of_block = specimen.material_of_block;
+  problem.interfaces = std::move(interfaces);
+  return problem;
 }
 
 template <int dim>

@@ -219,7 +219,7 @@ Criticals criticals(const CrackTest& test, const Setting& setting) {
   SpecimenBody specimen(test.specimen);
   fracture::Body<2>& body = specimen.body;
   const double resistance = setting.lattice_resistance();
-  const double fracture_energy = resistance * resistance * specimen.problem.fracture_energy;
+  const double fracture_energy = resistance * resistance * specimen.problem.materials[0].toughness.fracture_energy;
   const double critical = std::sqrt(setting.effective_modulus(test.specimen.youngs_modulus) * fracture_energy);
   body.apply_load(1.);
   body.update_topology();
@@ -228,7 +228,7 @@ Criticals criticals(const CrackTest& test, const Setting& setting) {
 
   double grown = 0.;  // before the increment
   CrackWatch watch([&](const auto& now) { return test.stress_intensity(now, grown) / critical; },
-                   4. * specimen.problem.fracture_energy);
+                   4. * specimen.problem.materials[0].toughness.fracture_energy);
   for (double load = 0.5 * handbook; load < 2.5 * handbook; load += 0.01 * handbook) {
     const auto energies = body.energies();
     grown = (energies.external_work - energies.elastic) / fracture_energy;
@@ -315,7 +315,7 @@ TEST(GriffithEnergy, TheEnergyDissipatedIsTheFractureEnergyTimesTheNewArea) {
   SpecimenBody specimen(test.specimen);
   fracture::Body<2>& body = specimen.body;
   const double resistance = setting.lattice_resistance();
-  const double fracture_energy = resistance * resistance * specimen.problem.fracture_energy;
+  const double fracture_energy = resistance * resistance * specimen.problem.materials[0].toughness.fracture_energy;
   body.apply_load(1.);
   body.update_topology();
   body.solve(fracture::Accuracy::accepted);

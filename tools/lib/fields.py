@@ -5,7 +5,7 @@ import numpy as np
 from messages import fail
 from runs import ExodusFile, series_of
 
-AXES = "xy"
+AXES = "xyz"
 
 
 class Displacement:
@@ -20,3 +20,6 @@ class Displacement:
         self.coordinates = np.column_stack(file.coordinates())
         self.values = np.column_stack(file.displacement(-1))
         self.node_sets = file.node_sets()
+        names = np.repeat(file.names("eb_names"), [len(block) for block in blocks])
+        # Blocks are named by the mesh's block and the class of their elements.
+        self.blocks = np.array([name.rpartition("_")[0] for name in names])[np.argsort(file.element_numbers())]

@@ -29,6 +29,18 @@ std::string largest_reaction(const base::Comm& comm, const cases::Case& input, c
   return fmt::format(", reaction {} = {:.4g}", largest->column, factor * largest->force);
 }
 
+/// E s_crit of each material.
+template <int dim>
+void describe_strengths(const cases::Case& input, const model::Problem<dim>& problem, const base::Log& log) {
+  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+    const auto& [name, toughness] = std::tie(problem.materials[m].name, problem.materials[m].toughness);
+    if (!toughness.breaks()) continue;
+    log->info("strength         {}E s_crit = {:.4g}: about the stress that breaks the material where there is no crack",
+              input.materials.empty() ? "" : name + ": ",
+              cases::solids_of(input)[m].youngs_modulus * toughness.critical_stretch);
+  }
+}
+
 }  // namespace
 
 void warn(const base::Log& log, const cases::Case& input, const std::vector<std::string>& lines) {
@@ -74,7 +86,7 @@ void warn_of_seeds_everywhere(const base::Comm& comm, const mesh::Mesh<dim>& mes
 template <int dim>
 void check_that_bonds_can_break(const base::Comm& comm, const cases::Case& input, const model::Problem<dim>& problem,
                                 const fracture::Body<dim>& body) {
-  if (std::isinf(problem.critical_stretch) || input.morphing.seeds.empty()) return;
+  if (!problem.breaks() || input.morphing.seeds.empty()) return;
   const auto& classes = body.topology().classes();
   const auto n_own =
       std::count(classes.begin(), classes.begin() + body.mesh().n_owned_elements, morphing::ElementClass::pd);
@@ -88,9 +100,8 @@ void check_that_bonds_can_break(const base::Comm& comm, const cases::Case& input
 template <int dim>
 void describe_first_break(const base::Comm& comm, const cases::Case& input, const model::Problem<dim>& problem,
                           fracture::Body<dim>& body, const base::Log& log) {
-  if (std::isinf(problem.critical_stretch) || input.morphing.seeds.empty()) return;
-  log->info("strength         E s_crit = {:.4g}: about the stress that breaks the material where there is no crack",
-            input.material.youngs_modulus * problem.critical_stretch);
+  if (!problem.breaks() || input.morphing.seeds.empty()) return;
+  describe_strengths(input, problem, log);
   if (!problem.is_proportional) return;  // one solution says nothing of others
   const double last = input.loading.increments;
   body.apply_load(last);
@@ -101,7 +112,7 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
     return;
   }
   for (const auto& fallback : body.solver_fallbacks()) warn(log, input, {"/Solver: " + fallback});
-  const double load = fracture::load_of_first_break(comm, body, problem.critical_stretch);
+  const double load = fracture::load_of_first_break(comm, body);
   if (std::isfinite(load)) {
     log->info("first break      at load {:.4g}, in increment {:.0f} of {:.0f}{}", load, std::max(1., std::ceil(load)),
               last, largest_reaction(comm, input, body, load / last));

@@ -27,14 +27,40 @@ using model::Problem;
 
 namespace {
 
+/// The name of one of several materials.
+template <int dim>
+std::string prefix(const Problem<dim>& problem, const std::string& name) {
+  return problem.materials.size() == 1 ? "" : name + ": ";
+}
+
+template <int dim>
+void describe_fracture(const Problem<dim>& problem, bool is_calibrated, const base::Log& log) {
+  const auto describe_one = [&](const std::string& whose, const materials::Toughness& toughness) {
+    if (!toughness.breaks()) {
+      log->info("fracture         {}none: neither critical stretch nor fracture energy is given", whose);
+      return;
+    }
+    log->info("fracture         {}critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}", whose,
+              toughness.critical_stretch, is_calibrated ? "calibrated to the mesh," : "by the integral,",
+              toughness.fracture_energy);
+  };
+  for (const auto& material : problem.materials) describe_one(prefix(problem, material.name), material.toughness);
+  for (const auto& [first, second, toughness] : problem.interfaces) {
+    describe_one(fmt::format("between {} and {}: ", problem.materials[first].name, problem.materials[second].name),
+                 toughness);
+  }
+}
+
 template <int dim>
 void describe(const base::Comm& comm, const cases::Case& input, const Problem<dim>& problem,
               const mesh::Mesh<dim>& mesh, const base::Log& log) {
   log->info("{}", input.title.empty() ? input.name : input.title);
   log->info("mesh             {}: {} elements, {} nodes on {}", input.mesh.file, mesh.n_global_elements,
             mesh.n_global_nodes, base::counted(static_cast<std::size_t>(comm.getSize()), "rank"));
-  log->info("micromodulus     tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", problem.micromodulus.tau0,
-            problem.micromodulus.characteristic_length, problem.micromodulus.horizon);
+  for (const auto& material : problem.materials) {
+    log->info("micromodulus     {}tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", prefix(problem, material.name),
+              material.micromodulus.tau0, material.micromodulus.characteristic_length, material.micromodulus.horizon);
+  }
 }
 
 /// Of the whole mesh, on rank 0.
@@ -61,15 +87,11 @@ std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm
   warn_of_seeds_everywhere(*comm, mesh, input, problem, log);
   const double size = model::element_size(*comm, mesh, problem);
   const bool is_calibrated = model::calibrate_to_mesh(problem, input.numerical, size);
-  if (std::isinf(problem.critical_stretch)) {
-    log->info("fracture         none: neither critical stretch nor fracture energy is given");
-  } else {
-    log->info("fracture         critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}",
-              problem.critical_stretch, is_calibrated ? "calibrated to the mesh," : "by the integral,",
-              problem.fracture_energy);
-  }
+  describe_fracture(problem, is_calibrated, log);
   auto lines = cases::advice(input, size);
-  for (auto& line : cases::advice_on_stretch(input, problem.critical_stretch)) lines.push_back(std::move(line));
+  std::vector<double> stretches;
+  for (const auto& material : problem.materials) stretches.push_back(material.toughness.critical_stretch);
+  for (auto& line : cases::advice_on_stretches(input, stretches)) lines.push_back(std::move(line));
   return lines;
 }
 

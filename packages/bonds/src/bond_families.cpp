@@ -11,12 +11,12 @@ using base::Point;
 
 template <int dim>
 BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
-                                std::vector<char> active, const materials::Micromodulus& micromodulus,
+                                std::vector<char> active, const materials::BondMaterials& materials,
                                 const std::vector<mesh::CrackFacet<dim>>& pre_cracks, StiffnessStorage kept)
     : mesh_(mesh),
       points_(points),
       active_(std::move(active)),
-      micromodulus_(micromodulus),
+      materials_(materials),
       kept_(kept),
       visibility_(mesh, pre_cracks),
       searched_(mesh.n_elements(), 0),
@@ -35,14 +35,16 @@ BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::Mat
 
 template <int dim>
 void BondFamilies<dim>::check_arguments() const {
-  const auto& [tau0, length, horizon] = micromodulus_;
   PERIMORPH_ASSERT(static_cast<int>(active_.size()) == mesh_.n_elements(), "{} marks for {} elements", active_.size(),
                    mesh_.n_elements());
   PERIMORPH_ASSERT(points_.first(mesh_.n_elements()) == points_.size(), "{} points, {} of them in {} elements",
                    points_.size(), points_.first(mesh_.n_elements()), mesh_.n_elements());
-  PERIMORPH_ASSERT(std::isfinite(tau0) && tau0 > 0., "tau0 is {}", tau0);
-  PERIMORPH_ASSERT(std::isfinite(length) && length > 0., "the characteristic length is {}", length);
-  PERIMORPH_ASSERT(std::isfinite(horizon) && horizon > 0., "the horizon is {}", horizon);
+  for (int e = 0; e < mesh_.n_elements(); ++e) {
+    const auto& [tau0, length, horizon] = materials_.micromodulus_of(e);
+    PERIMORPH_ASSERT(std::isfinite(tau0) && tau0 > 0., "tau0 is {}", tau0);
+    PERIMORPH_ASSERT(std::isfinite(length) && length > 0., "the characteristic length is {}", length);
+    PERIMORPH_ASSERT(std::isfinite(horizon) && horizon > 0., "the horizon is {}", horizon);
+  }
 }
 
 template <int dim>
@@ -51,7 +53,7 @@ void BondFamilies<dim>::extend(const std::vector<int>& elements) {
     PERIMORPH_ASSERT(mesh_.has_element(e), "element {} of {}", e, mesh_.n_elements());
     if (searched_[e]) continue;
     searched_[e] = 1;
-    const double reach = (1. + 1e-6) * (micromodulus_.horizon + radii_[e]);
+    const double reach = (1. + 1e-6) * (materials_.horizon() + radii_[e]);
     const auto obstacles = visibility_.near(centroids_[e], reach);
     for (const int f : tree_->within(centroids_[e], reach + largest_radius_)) {
       const bool already_paired = searched_[f] && f != e;
@@ -79,7 +81,7 @@ void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibi
   for (int qa = 0; qa < points_.count(a); ++qa) {
     for (int qb = a == b ? qa + 1 : 0; qb < points_.count(b); ++qb) {
       const int i = first_a + qa, j = first_b + qb;
-      const double c0 = micromodulus_((points_.position(j) - points_.position(i)).norm());
+      const double c0 = materials_.stiffness(a, b, (points_.position(j) - points_.position(i)).norm());
       if (c0 == 0.) continue;
       if (Visibility<dim>::blocks(between, points_.position(i), points_.position(j))) continue;
       ends_.push_back(static_cast<std::uint16_t>(qa * elements::max_points + qb));
@@ -98,10 +100,16 @@ void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibi
 }
 
 template <int dim>
-double BondFamilies<dim>::stiffness_on_the_fly(int first_point, int second_point) const {
-  const double squared = (points_.position(second_point) - points_.position(first_point)).squaredNorm();
-  const auto decay = materials::decay(materials::EightValues::Constant(squared), micromodulus_.characteristic_length);
-  return micromodulus_.tau0 * decay[0] * points_.weight(first_point) * points_.weight(second_point);
+double BondFamilies<dim>::stiffness_on_the_fly(const Bond<dim>& bond) const {
+  const auto squared = materials::EightValues::Constant(bond.xi.squaredNorm());
+  const auto c0 = [&](int element) {
+    const materials::Micromodulus& own = materials_.micromodulus_of(element);
+    return own.tau0 * materials::decay(squared, own.characteristic_length)[0];
+  };
+  const bool is_of_one = materials_.of(bond.first_element) == materials_.of(bond.second_element);
+  const double of_first = c0(bond.first_element);
+  return (is_of_one ? of_first : materials::harmonic_mean(of_first, c0(bond.second_element))) *
+         points_.weight(bond.first_point) * points_.weight(bond.second_point);
 }
 
 template <int dim>
@@ -163,52 +171,56 @@ typename BondFamilies<dim>::Extremes BondFamilies<dim>::neighbourhood_extremes(
   return extremes;
 }
 
-/// visit(bond, |xi + eta|^2 / |xi|^2)
+/// visit(bond, |xi + eta|^2 / |xi|^2, its critical stretch)
 template <int dim>
 template <class Visit>
-void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& displacements, double critical_stretch,
+void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& displacements,
+                                               const CriticalStretches& critical_stretches,
                                                const std::vector<morphing::ElementClass>& classes, Visit visit) const {
   PERIMORPH_ASSERT(static_cast<int>(displacements.size()) == points_.size(), "{} displacements of {} points",
                    displacements.size(), points_.size());
   PERIMORPH_ASSERT(static_cast<int>(classes.size()) == mesh_.n_elements(), "{} classes of {} elements", classes.size(),
                    mesh_.n_elements());
-  PERIMORPH_ASSERT(critical_stretch >= 0., "a critical stretch of {}", critical_stretch);
-  // s = |xi + eta| / |xi| - 1 >= s_crit, without the roots   [WHL19, eq. 6, 7]
-  const double critical = (1. + critical_stretch) * (1. + critical_stretch);
+  PERIMORPH_ASSERT(critical_stretches.smallest() >= 0., "a critical stretch of {}", critical_stretches.smallest());
   for (int p = 0; p < n_pairs(); ++p) {
     const auto [first, second] = pairs_[p];
     if (first == second || classes[first] != morphing::ElementClass::pd ||
         classes[second] != morphing::ElementClass::pd) {
       continue;
     }
+    // s = |xi + eta| / |xi| - 1 >= s_crit, without the roots   [WHL19, eq. 6, 7]
+    const double critical_stretch = critical_stretches(first, second);
+    const double critical = (1. + critical_stretch) * (1. + critical_stretch);
     for_each_bond(p, [&](const Bond<dim>& bond) {
       if (bond.is_broken) return;
       const Point<dim> eta = displacements[bond.second_point] - displacements[bond.first_point];
       PERIMORPH_DEBUG_ASSERT(eta.allFinite(), "a point of bond {} is displaced to nowhere", bond.id);
       if ((bond.xi + eta).squaredNorm() < critical * bond.xi.squaredNorm()) return;
-      visit(bond, (bond.xi + eta).squaredNorm() / bond.xi.squaredNorm());
+      visit(bond, (bond.xi + eta).squaredNorm() / bond.xi.squaredNorm(), critical_stretch);
     });
   }
 }
 
 template <int dim>
 std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim>>& displacements,
-                                                     double critical_stretch,
+                                                     const CriticalStretches& critical,
                                                      const std::vector<morphing::ElementClass>& classes) const {
-  std::vector<double> stretches;
-  for_each_overstretched(displacements, critical_stretch, classes, [&](const Bond<dim>& bond, double squared_ratio) {
-    if (bond.first_element < mesh_.n_owned_elements) stretches.push_back(std::sqrt(squared_ratio) - 1.);
-  });
-  return stretches;
+  std::vector<double> ratios;
+  for_each_overstretched(displacements, critical, classes,
+                         [&](const Bond<dim>& bond, double squared_ratio, double critical_stretch) {
+                           if (bond.first_element >= mesh_.n_owned_elements) return;
+                           ratios.push_back((std::sqrt(squared_ratio) - 1.) / critical_stretch);
+                         });
+  return ratios;
 }
 
 template <int dim>
 std::vector<BondId> BondFamilies<dim>::overstretched(const std::vector<Point<dim>>& displacements,
-                                                     double critical_stretch,
+                                                     const CriticalStretches& critical,
                                                      const std::vector<morphing::ElementClass>& classes) const {
   std::vector<BondId> found;
-  for_each_overstretched(displacements, critical_stretch, classes,
-                         [&](const Bond<dim>& bond, double) { found.push_back(bond.id); });
+  for_each_overstretched(displacements, critical, classes,
+                         [&](const Bond<dim>& bond, double, double) { found.push_back(bond.id); });
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "perimorph/base/errors.hpp"
 #include "perimorph/materials/micromodulus.hpp"
 #include "perimorph/model/calibration.hpp"
 
@@ -28,7 +29,7 @@ class Advice {
  public:
   Advice(const Case& input, double element_size)
       : input_(input),
-        breaks_(input.material.breaks()),
+        breaks_(can_break(input)),
         horizon_(input.peridynamics.horizon),
         length_(input.peridynamics.characteristic_length),
         size_(element_size) {}
@@ -108,16 +109,17 @@ class Advice {
   }
 
   void check_function() {
-    const auto& material = input_.material;
-    if (material.elastic_model == materials::ElasticModel::plane_stress ||
-        material.poissons_ratio < least_stiff_volume ||
+    if (input_.material.elastic_model == materials::ElasticModel::plane_stress ||
         input_.numerical.blending_function == morphing::BlendingFunction::cubic) {
       return;
     }
+    double largest = 0.;
+    for (const Solid& solid : solids_of(input_)) largest = std::max(largest, solid.poissons_ratio);
+    if (largest < least_stiff_volume) return;
     add("/Morphing/Function",
         "where alpha begins and ends to fall linearly, strains are wrong by 4 to 6 % with a Poisson's ratio of {:.3g}; "
         "with \"Cubic\" by 1 to 2 %",
-        material.poissons_ratio);
+        largest);
   }
 
   void check_rim(const std::string& path, double rim) {
@@ -146,17 +148,25 @@ class Advice {
 
 std::vector<std::string> advice(const Case& input, double element_size) { return Advice(input, element_size).all(); }
 
-std::vector<std::string> advice_on_stretch(const Case& input, double critical_stretch) {
-  if (std::isinf(critical_stretch) || input.morphing.seeds.empty()) return {};
-  if (critical_stretch >= least_stretch && critical_stretch <= most_stretch) return {};
-  const bool is_large = critical_stretch > most_stretch;
-  return {fmt::format(
-      "/Material/{}: bonds break at a stretch of {:.4g}, where E s_crit = {:.4g}: that looks like a mistake of units. "
-      "{}",
-      input.material.critical_stretch ? "Critical Stretch" : "Fracture Energy", critical_stretch,
-      input.material.youngs_modulus * critical_stretch,
-      is_large ? "The model is one of small strains. With mm and MPa, G_c is in N/mm, that is kJ/m2; it is not K_c"
-               : "Brittle solids break at 1e-5 to 1e-2. With m and Pa, G_c is in J/m2; with mm and MPa in N/mm")};
+std::vector<std::string> advice_on_stretches(const Case& input, const std::vector<double>& critical_stretches) {
+  if (input.morphing.seeds.empty()) return {};
+  const auto solids = solids_of(input);
+  PERIMORPH_ASSERT(solids.size() == critical_stretches.size(), "{} stretches for {} materials",
+                   critical_stretches.size(), solids.size());
+  std::vector<std::string> lines;
+  for (std::size_t m = 0; m < solids.size(); ++m) {
+    const double stretch = critical_stretches[m];
+    if (std::isinf(stretch) || (stretch >= least_stretch && stretch <= most_stretch)) continue;
+    lines.push_back(fmt::format(
+        "{}/{}: bonds break at a stretch of {:.4g}, where E s_crit = {:.4g}: that looks like a mistake of units. {}",
+        m == 0 ? "/Material" : "/Materials/" + solids[m].name,
+        solids[m].critical_stretch ? "Critical Stretch" : "Fracture Energy", stretch,
+        solids[m].youngs_modulus * stretch,
+        stretch > most_stretch
+            ? "The model is one of small strains. With mm and MPa, G_c is in N/mm, that is kJ/m2; it is not K_c"
+            : "Brittle solids break at 1e-5 to 1e-2. With m and Pa, G_c is in J/m2; with mm and MPa in N/mm"));
+  }
+  return lines;
 }
 
 std::vector<std::string> advice_on_load(const Case& input, double first_break) {

@@ -82,16 +82,23 @@ void declare(const input::Section& section, BoundaryConditions& conditions) {
                  "[force/volume per increment], one number per dimension; {} is zero.");
   body.parameter("Constant", conditions.body_force_constant, vector,
                  "[force/volume], one number per dimension; {} is zero.");
+  const auto weight = section.section("Self-Weight",
+                                      "Acceleration that each material's density turns into a force per volume: Rate * "
+                                      "k + Constant in increment k.");
+  weight.parameter("Rate", conditions.self_weight_rate, vector,
+                   "[length/time^2 per increment], one number per dimension; {} is zero.");
+  weight.parameter("Constant", conditions.self_weight_constant, vector,
+                   "[length/time^2], one number per dimension, such as {0, -9810} with mm and t/mm^3; {} is zero.");
 }
 
 void check_boundary_conditions(const input::Values& section, int dimension) {
   check_displacements(section, dimension);
   for (const auto& traction : section.subs("Tractions")) check_load(traction, dimension);
-  check_load(section.sub("Body Force"), dimension);
+  for (const char* name : {"Body Force", "Self-Weight"}) check_load(section.sub(name), dimension);
 }
 
 void complete_boundary_conditions(ParameterList& values, int dimension) {
-  fill_with_zeros(values.sublist("Body Force"), dimension);
+  for (const char* name : {"Body Force", "Self-Weight"}) fill_with_zeros(values.sublist(name), dimension);
   ParameterList& tractions = values.sublist("Tractions");
   for (const auto& item : tractions) fill_with_zeros(tractions.sublist(item.first), dimension);
 }
@@ -102,7 +109,7 @@ bool BoundaryConditions::are_proportional() const {
   return std::all_of(displacements.begin(), displacements.end(),
                      [&](const auto& d) { return is_zero(d.value.constant); }) &&
          std::all_of(tractions.begin(), tractions.end(), [&](const auto& t) { return all_zero(t.constant); }) &&
-         all_zero(body_force_constant);
+         all_zero(body_force_constant) && all_zero(self_weight_constant);
 }
 
 }  // namespace perimorph::cases

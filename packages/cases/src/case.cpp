@@ -27,7 +27,18 @@ void declare_case(const Section& root, Case& input) {
                  "Dimensions of space. It decides how many numbers a point has, which elements the mesh needs, and "
                  "which elastic models and shapes of seeds and pre-cracks are allowed.");
   declare(root.section("Mesh", "Where the body comes from."), input.mesh);
-  declare(root.section("Material", "One homogeneous, isotropic, linearly elastic, brittle material."), input.material);
+  declare(root.section("Material",
+                       "The homogeneous, isotropic, linearly elastic, brittle material of the body; with Materials, of "
+                       "all blocks that none of these fills."),
+          input.material);
+  root.entries("Materials", input.materials, declare,
+               "Further materials, each a list with a name of your choice. Elastic Model and Calibration are those of "
+               "Material. Without a fracture energy or a critical stretch it never breaks (steel platens).",
+               "One material, and the blocks of the mesh that it fills.");
+  root.entries("Interfaces", input.interfaces, declare,
+               "How tough it is where two materials meet, each a list with a name of your choice. Between others the "
+               "fracture energy is that of the less tough one: a perfect bond.",
+               "The interface between two materials.");
   declare(root.section("Peridynamics", "The nonlocal model inside the peridynamic zone."), input.peridynamics,
           input.numerical);
   declare(root.section("Morphing", "Where the body is peridynamic, and how that zone grows."), input.morphing,
@@ -49,18 +60,18 @@ void check(const Resolved& resolved, Mistakes& mistakes) {
   const input::Values root(resolved, mistakes);
   const int* dimension = root.count("Dimension");
   if (dimension == nullptr) return;  // what is wrong depends on it
-  check_material(root.sub("Material"), *dimension);
+  check_materials(root, *dimension);
   check_peridynamics(root.sub("Peridynamics"));
   check_morphing(root.sub("Morphing"), *dimension);
   for (const auto& crack : root.subs("Pre-Cracks")) check_pre_crack(crack, *dimension);
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);
-  check_solver(root.sub("Solver"), has_dilatation(root.sub("Material")));
+  check_solver(root.sub("Solver"), has_dilatation(root));
   check_output(root.sub("Output"), *dimension);
 }
 
 /// The values that stand for something exact: 0.333 for 1/3, no numbers for zeros.
 void complete(Teuchos::ParameterList& values) {
-  complete_material(values.sublist("Material"));
+  complete_materials(values);
   complete_boundary_conditions(values.sublist("Boundary Conditions"), values.get<int>("Dimension"));
 }
 
@@ -131,6 +142,17 @@ void complete_reactions(Case& input) {
 }
 
 }  // namespace
+
+std::vector<Solid> solids_of(const Case& input) {
+  std::vector<Solid> all = {input.material};
+  all.insert(all.end(), input.materials.begin(), input.materials.end());
+  return all;
+}
+
+bool can_break(const Case& input) {
+  const auto solids = solids_of(input);
+  return std::any_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.breaks(); });
+}
 
 Teuchos::ParameterList case_schema() {
   Teuchos::ParameterList schema("perimorph");

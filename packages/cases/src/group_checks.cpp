@@ -26,6 +26,7 @@ class GroupChecks {
   void run() {
     const auto is_held = check_conditions("Displacements", mesh_.node_sets, "nodes");
     check_conditions("Tractions", mesh_.side_sets, "sides");
+    check_blocks();
     const ParameterList& output = list_.sublist("Output");
     if (!output.isParameter("Reactions")) return;
     for (const auto& group : output.get<Teuchos::Array<std::string>>("Reactions")) {
@@ -47,6 +48,19 @@ class GroupChecks {
       named.insert(group);
     }
     return named;
+  }
+
+  void check_blocks() {
+    std::map<std::string, int> blocks;
+    for (const auto& name : mesh_.block_names) blocks[name] = 0;
+    const ParameterList& materials = list_.sublist("Materials");
+    for (const auto& item : materials) {
+      const ParameterList& material = materials.sublist(item.first);
+      if (!material.isParameter("Blocks")) continue;
+      for (const auto& block : material.get<Teuchos::Array<std::string>>("Blocks")) {
+        check("/Materials/" + item.first + "/Blocks", block, blocks, "elements");
+      }
+    }
   }
 
   template <class Groups>

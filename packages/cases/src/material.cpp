@@ -1,7 +1,10 @@
 #include "perimorph/cases/material.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "choices.hpp"
 
@@ -19,6 +22,8 @@ constexpr std::array<Choice<ElasticModel>, 3> elastic_models{
 constexpr std::array<Choice<Calibration>, 2> calibrations{
     {{"Analytic", Calibration::analytic}, {"Mesh-Consistent", Calibration::mesh_consistent}}};
 
+constexpr double longest_horizon = 100.;  // in characteristic lengths
+
 /// The ratio that bonds alone have, for one within 0.1 % of it; another as it is.
 double exact_ratio(ElasticModel model, double ratio) {
   // 1e-3 relative, and a little, since 0.333 is exactly 1e-3 off 1/3.
@@ -26,56 +31,168 @@ double exact_ratio(ElasticModel model, double ratio) {
   return std::abs(ratio - of_bonds) <= 1.0001e-3 * of_bonds ? of_bonds : ratio;
 }
 
-void check_poissons_ratio(const input::Values& material) {
-  constexpr double largest = 0.45;
-  const double* ratio = material.number("Poisson's Ratio");
-  const std::string* word = material.text("Elastic Model");
-  if (ratio == nullptr || word == nullptr) return;
-  const bool is_plane_stress = input::value_of(elastic_models, *word) == ElasticModel::plane_stress;
-  if (*ratio > -1. && (is_plane_stress ? *ratio < 0.5 : *ratio <= largest)) return;
-  material.mistake(
-      "Poisson's Ratio",
-      *ratio <= -1. || *ratio >= 0.5
-          ? fmt::format(
-                "found {}; allowed are ratios above -1 and below 0.5: beyond, a solid would not resist shear or "
-                "a change of its volume",
-                *ratio)
-          : fmt::format("found {}; allowed are ratios up to {} for \"{}\": closer to 0.5 the volume hardly changes, "
-                        "and elements and conjugate gradients lock",
-                        *ratio, largest, *word));
+std::optional<ElasticModel> elastic_model_of(const input::Values& root) {
+  const std::string* word = root.sub("Material").text("Elastic Model");
+  if (word == nullptr) return std::nullopt;
+  return input::value_of(elastic_models, *word);
 }
 
-}  // namespace
+/// Of all materials.
+std::vector<input::Values> solids(const input::Values& root) {
+  std::vector<input::Values> all = {root.sub("Material")};
+  for (const auto& other : root.subs("Materials")) all.push_back(other);
+  return all;
+}
 
-void declare(const input::Section& section, Material& material) {
+void check_poissons_ratio(const input::Values& solid, ElasticModel model) {
+  constexpr double largest = 0.45;
+  const double* ratio = solid.number("Poisson's Ratio");
+  if (ratio == nullptr) return;
+  if (*ratio <= -1. || *ratio >= 0.5) {
+    solid.mistake("Poisson's Ratio",
+                  fmt::format("found {}; allowed are ratios above -1 and below 0.5: beyond, a solid would not resist "
+                              "shear or a change of its volume",
+                              *ratio));
+  } else if (model != ElasticModel::plane_stress && *ratio > largest) {
+    solid.mistake("Poisson's Ratio",
+                  fmt::format("found {}; allowed are ratios up to {} for \"{}\": closer to 0.5 the volume hardly "
+                              "changes, and elements and conjugate gradients lock",
+                              *ratio, largest, input::word_of(elastic_models, model)));
+  }
+}
+
+void check_fracture(const input::Values& section) {
+  if (!section.given("Critical Stretch") || !section.given("Fracture Energy")) return;
+  section.mistake("Fracture Energy",
+                  "found beside \"Critical Stretch\"; allowed is one of the two: each follows from the other");
+}
+
+void check_length(const input::Values& solid, const input::Values& peridynamics) {
+  const double *length = solid.number("Characteristic Length"), *horizon = peridynamics.number("Horizon");
+  if (length == nullptr || horizon == nullptr || (*length < *horizon && *horizon <= longest_horizon * *length)) return;
+  solid.mistake(
+      "Characteristic Length",
+      fmt::format("found {:.6g}; allowed is below the horizon, which is {:.6g}, and from its {:.0f}th part on", *length,
+                  *horizon, longest_horizon));
+}
+
+/// Each block has one material.
+void check_blocks(const std::vector<input::Values>& materials) {
+  std::map<std::string, std::string> filled;
+  for (const auto& material : materials) {
+    const auto* blocks = material.texts("Blocks");
+    if (blocks == nullptr) continue;
+    if (blocks->empty()) material.mistake("Blocks", "found none; allowed are the names of one block or more");
+    for (const auto& block : *blocks) {
+      const auto [first, is_new] = filled.emplace(block, material.path());
+      if (is_new) continue;
+      material.mistake("Blocks",
+                       fmt::format("found {}, which {} fills already", input::in_quotes(block), first->second));
+    }
+  }
+}
+
+std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+std::set<std::string> names_of_materials(const input::Values& root) {
+  std::set<std::string> names;
+  if (const auto* name = root.sub("Material").text("Name")) names.insert(*name);
+  for (const auto& material : root.subs("Materials")) {
+    if (names.insert(last_part(material.path())).second) continue;
+    root.sub("Material")
+        .mistake("Name", fmt::format("found {}, which is the name of {} too",
+                                     input::in_quotes(last_part(material.path())), material.path()));
+  }
+  return names;
+}
+
+void check_interface(const input::Values& interface, const std::set<std::string>& known,
+                     std::map<std::set<std::string>, std::string>& seen) {
+  check_fracture(interface);
+  if (!interface.given("Critical Stretch") && !interface.given("Fracture Energy")) {
+    interface.mistake("Fracture Energy", "missing, and so is \"Critical Stretch\"; allowed is one of the two");
+  }
+  const auto* names = interface.texts("Materials");
+  if (names == nullptr) return;
+  const std::set<std::string> pair(names->begin(), names->end());
+  if (names->size() != 2 || pair.size() != 2) {
+    interface.mistake("Materials", fmt::format("found {}; allowed are the names of two different materials",
+                                               interface.shown("Materials")));
+    return;
+  }
+  for (const auto& name : pair) {
+    if (known.count(name) != 0) continue;
+    interface.mistake("Materials",
+                      fmt::format("found {}; the materials are {}", input::in_quotes(name),
+                                  base::quoted_list(std::vector<std::string>(known.begin(), known.end()))));
+    return;
+  }
+  const auto [first, is_new] = seen.emplace(pair, interface.path());
+  if (!is_new) interface.mistake("Materials", fmt::format("found a pair that {} has already", first->second));
+}
+
+bool is_weighed(const input::Values& self_weight) {
+  const auto is_some = [&](const char* name) {
+    const auto* values = self_weight.numbers(name);
+    return values != nullptr && std::any_of(values->begin(), values->end(), [](double value) { return value != 0.; });
+  };
+  return is_some("Rate") || is_some("Constant");
+}
+
+/// Weight needs a density of every material.
+void check_density(const input::Values& solid, const input::Values& self_weight) {
+  const double* density = solid.number("Density");
+  if (density == nullptr || *density > 0. || !is_weighed(self_weight)) return;
+  solid.mistake("Density", "found 0; /Boundary Conditions/Self-Weight needs a density above 0 of every material");
+}
+
+void declare_stiffness(const input::Section& section, Solid& solid) {
   using namespace input;
-  section.required("Young's Modulus", material.youngs_modulus, 30000., above(0.),
+  section.required("Young's Modulus", solid.youngs_modulus, 30000., above(0.),
                    "E [stress]. Its unit fixes the others: with lengths in mm and E in MPa, forces are in N and the "
                    "fracture energy is in N/mm. Ten times E gives ten times the forces, and a fracture energy then "
                    "belongs to a critical stretch smaller by the root of ten.");
-  section.required("Poisson's Ratio", material.poissons_ratio, 1. / 3., any_number(),
+  section.required("Poisson's Ratio", solid.poissons_ratio, 1. / 3., any_number(),
                    "nu [-], above -1 and below 0.5, up to 0.45 in plane strain and three dimensions. Bonds alone have "
                    "1/3 in plane stress and 1/4 otherwise: that costs least, and a value within 0.1 % of it (0.333) is "
                    "taken as exactly that. With any other one the bonds carry the shear modulus, and the dilatation of "
                    "their points what is left (state-based peridynamics): each iteration of conjugate gradients then "
                    "costs about twice as much, and the Operator cannot be \"CRS\".");
-  section.required_choice(
-      "Elastic Model", material.elastic_model, elastic_models,
-      "In two dimensions what is assumed across the thickness, which is 1 [length]: thin plates are in plane stress, "
-      "long bodies in plane strain. In three dimensions nothing is: \"Three-Dimensional\".");
+}
+
+void declare_fracture(const input::Section& section, Fracture& fracture) {
+  using namespace input;
   section.optional(
-      "Critical Stretch", material.critical_stretch, 0.05, above(0.),
+      "Critical Stretch", fracture.critical_stretch, 0.05, above(0.),
       "s_crit [-]: a bond whose stretch |xi + u(p) - u(x)|/|xi| - 1 reaches it breaks for good [WHL19, eq. 6, 7]. "
       "Given the horizon and the characteristic length it follows from the fracture energy, so give one of the two; "
       "with neither, nothing breaks. Forces at failure are proportional to it. The strain at a crack's tip grows as "
       "elements get smaller, so with a fixed stretch a finer mesh breaks earlier.");
-  section.optional("Fracture Energy", material.fracture_energy, 0.1, above(0.),
+  section.optional("Fracture Energy", fracture.fracture_energy, 0.1, above(0.),
                    "G_c [force/length]: the energy per area of new crack. The critical stretch is derived from it, in "
                    "two dimensions by G_c = s_crit^2 times the integral of c0(r) r^6 over r from 0 to the horizon, in "
                    "three by pi/2 s_crit^2 times that of c0(r) r^7, and what the dilatation stores beside, so that it "
                    "stays the same when the horizon or the "
                    "characteristic length is changed. Data sheets give toughness K_c = sqrt(G_c E) in plane stress; "
                    "K_c taken for G_c is wrong by orders of magnitude.");
+}
+
+void declare_density(const input::Section& section, Solid& solid) {
+  section.parameter("Density", solid.density, input::at_least(0.),
+                    "[mass/volume], for Boundary Conditions/Self-Weight: with mm, N and MPa in t/mm^3, 2.4e-9 for "
+                    "concrete and 7.85e-9 for steel.");
+}
+
+}  // namespace
+
+void declare(const input::Section& section, Material& material) {
+  using namespace input;
+  declare_stiffness(section, material);
+  section.required_choice(
+      "Elastic Model", material.elastic_model, elastic_models,
+      "In two dimensions what is assumed across the thickness, which is 1 [length]: thin plates are in plane stress, "
+      "long bodies in plane strain. In three dimensions nothing is: \"Three-Dimensional\".");
+  declare_fracture(section, material);
   section.choice(
       "Calibration", material.calibration, calibrations,
       "How fracture energy and critical stretch belong together. \"Analytic\": by that integral. \"Mesh-Consistent\": "
@@ -84,28 +201,64 @@ void declare(const input::Section& section, Material& material) {
       "mean edge of the elements in the seeds, and on the two choices in Morphing. A given critical stretch stays as "
       "it is: then the fracture energy that is printed is greater. In three dimensions, where cracks are hardly held "
       "up, and with three points per direction it is as \"Analytic\".");
+  declare_density(section, material);
+  section.changeable().parameter("Name", material.name, text("a name"),
+                                 "How Interfaces and results call the material.");
 }
 
-void check_material(const input::Values& section, int dimension) {
-  check_choice(section, "Elastic Model", elastic_models, dimension);
-  check_poissons_ratio(section);
-  if (section.given("Critical Stretch") && section.given("Fracture Energy")) {
-    section.mistake("Fracture Energy",
-                    "found beside \"Critical Stretch\"; allowed is one of the two: each follows from the other");
+void declare(const input::Section& section, Solid& solid) {
+  using namespace input;
+  section.required("Blocks", solid.blocks, {"particle"}, names("a list of blocks such as {particle}"),
+                   "The blocks of the mesh that it fills: physical groups of elements.");
+  declare_stiffness(section, solid);
+  declare_fracture(section, solid);
+  section.optional("Characteristic Length", solid.characteristic_length, 0.1, above(0.),
+                   "l [length] of its own in the micromodulus; that of Peridynamics if not given.");
+  declare_density(section, solid);
+}
+
+void declare(const input::Section& section, Interface& interface) {
+  using namespace input;
+  section.required("Materials", interface.materials, {"body", "particle"}, names("two names such as {body, particle}"),
+                   "The two materials between which it is: names in Materials, or the Name in Material.");
+  declare_fracture(section, interface);
+}
+
+void check_materials(const input::Values& root, int dimension) {
+  check_choice(root.sub("Material"), "Elastic Model", elastic_models, dimension);
+  const auto model = elastic_model_of(root);
+  const auto self_weight = root.sub("Boundary Conditions").sub("Self-Weight");
+  for (const auto& solid : solids(root)) {
+    if (model) check_poissons_ratio(solid, *model);
+    check_fracture(solid);
+    check_length(solid, root.sub("Peridynamics"));
+    check_density(solid, self_weight);
   }
+  check_blocks(root.subs("Materials"));
+  const auto names = names_of_materials(root);
+  std::map<std::set<std::string>, std::string> seen;
+  for (const auto& interface : root.subs("Interfaces")) check_interface(interface, names, seen);
 }
 
-void complete_material(Teuchos::ParameterList& values) {
-  const auto model = input::value_of(elastic_models, values.get<std::string>("Elastic Model"));
-  values.set("Poisson's Ratio", exact_ratio(model, values.get<double>("Poisson's Ratio")));
+void complete_materials(Teuchos::ParameterList& root) {
+  auto& main = root.sublist("Material");
+  const auto model = input::value_of(elastic_models, main.get<std::string>("Elastic Model"));
+  const auto complete = [&](Teuchos::ParameterList& solid) {
+    solid.set("Poisson's Ratio", exact_ratio(model, solid.get<double>("Poisson's Ratio")));
+  };
+  complete(main);
+  auto& others = root.sublist("Materials");
+  for (const auto& item : others) complete(others.sublist(item.first));
 }
 
-bool has_dilatation(const input::Values& material) {
-  const double* ratio = material.number("Poisson's Ratio");
-  const std::string* word = material.text("Elastic Model");
-  if (ratio == nullptr || word == nullptr) return false;
-  const auto model = input::value_of(elastic_models, *word);
-  return exact_ratio(model, *ratio) != materials::bond_based_poissons_ratio(model);
+bool has_dilatation(const input::Values& root) {
+  const auto model = elastic_model_of(root);
+  if (!model) return false;
+  const auto all = solids(root);
+  return std::any_of(all.begin(), all.end(), [&](const auto& solid) {
+    const double* ratio = solid.number("Poisson's Ratio");
+    return ratio != nullptr && exact_ratio(*model, *ratio) != materials::bond_based_poissons_ratio(*model);
+  });
 }
 
 }  // namespace perimorph::cases

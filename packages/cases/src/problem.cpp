@@ -1,7 +1,8 @@
 #include "perimorph/cases/problem.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 
 #include "mesh_checks.hpp"
 #include "perimorph/base/errors.hpp"
@@ -12,54 +13,103 @@ namespace perimorph::cases {
 namespace {
 
 template <int dim>
-discretization::Loads<dim> make_loads(const BoundaryConditions& conditions) {
+discretization::Loads<dim> make_loads(const Case& input) {
+  const BoundaryConditions& conditions = input.boundary_conditions;
   std::vector<discretization::SurfaceTraction<dim>> tractions;
   for (const auto& t : conditions.tractions) {
     tractions.push_back({t.group, {point<dim>(t.rate), point<dim>(t.constant)}});
   }
-  return {std::move(tractions), {point<dim>(conditions.body_force_rate), point<dim>(conditions.body_force_constant)}};
+  discretization::SelfWeight<dim> weight{
+      {point<dim>(conditions.self_weight_rate), point<dim>(conditions.self_weight_constant)},
+      {},
+      input.material.density};
+  for (const auto& solid : input.materials) {
+    for (const auto& block : solid.blocks) weight.densities[block] = solid.density;
+  }
+  return {std::move(tractions),
+          {point<dim>(conditions.body_force_rate), point<dim>(conditions.body_force_constant)},
+          std::move(weight)};
+}
+
+/// What is given, and what follows by integrals.
+template <class StretchOf, class EnergyOf>
+materials::Toughness toughness_of(const Fracture& fracture, StretchOf stretch_of, EnergyOf energy_of) {
+  materials::Toughness toughness;
+  if (fracture.critical_stretch) toughness.critical_stretch = *fracture.critical_stretch;
+  if (fracture.fracture_energy) toughness.critical_stretch = stretch_of(*fracture.fracture_energy);
+  toughness.fracture_energy = energy_of(toughness.critical_stretch);
+  toughness.is_stretch_given = fracture.critical_stretch.has_value();
+  return toughness;
+}
+
+template <int dim>
+materials::Material<dim> make_material(const Case& input, const Solid& solid) {
+  const auto& [horizon, length] = input.peridynamics;
+  auto material =
+      materials::elastic_material<dim>(input.material.elastic_model, solid.youngs_modulus, solid.poissons_ratio,
+                                       solid.characteristic_length.value_or(length), horizon);
+  material.name = solid.name;
+  const auto& c0 = material.micromodulus;
+  const double ratio = material.dilatational_ratio;
+  material.toughness = toughness_of(
+      solid, [&](double energy) { return materials::critical_stretch<dim>(c0, energy, ratio); },
+      [&](double stretch) { return materials::fracture_energy<dim>(c0, stretch, ratio); });
+  return material;
+}
+
+/// Between any two materials: as the case says, or perfect.
+template <int dim>
+std::vector<materials::Interface> make_interfaces(const Case& input,
+                                                  const std::vector<materials::Material<dim>>& materials) {
+  std::vector<materials::Interface> interfaces;
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    for (std::size_t n = m + 1; n < materials.size(); ++n) {
+      const auto &one = materials[m], &other = materials[n];
+      interfaces.push_back({static_cast<int>(m), static_cast<int>(n), materials::perfect_interface(one, other)});
+      const auto given = std::find_if(input.interfaces.begin(), input.interfaces.end(), [&](const Interface& i) {
+        return std::set<std::string>(i.materials.begin(), i.materials.end()) == std::set{one.name, other.name};
+      });
+      if (given == input.interfaces.end()) continue;
+      interfaces.back().toughness = toughness_of(
+          *given, [&](double energy) { return materials::critical_stretch(one, other, energy); },
+          [&](double stretch) { return materials::fracture_energy(one, other, stretch); });
+    }
+  }
+  return interfaces;
 }
 
 /// Extreme numbers, each allowed by itself, may give none together.
 template <int dim>
-void check_numbers(const Case& input, const model::Problem<dim>& problem) {
-  const bool breaks = input.material.breaks();
-  const auto is_valid = [](double value) { return std::isfinite(value) && value > 0.; };
-  const double tau0 = problem.micromodulus.tau0, stretch = problem.critical_stretch, energy = problem.fracture_energy;
-  if (is_valid(tau0) && (!breaks || (is_valid(stretch) && is_valid(energy)))) return;
+void check_numbers(const Case& input, const materials::Material<dim>& material, const Solid& solid) {
+  const auto is_sound = [](double value) { return std::isfinite(value) && value > 0.; };
+  const auto& [tau0, length, horizon] = material.micromodulus;
+  const double stretch = material.toughness.critical_stretch, energy = material.toughness.fracture_energy;
+  if (is_sound(tau0) && (!solid.breaks() || (is_sound(stretch) && is_sound(energy)))) return;
   throw base::UserError(
       fmt::format("{}: /Material and /Peridynamics give tau0 = {:.4g}, s_crit = {:.4g}, G_c = {:.4g}, with E = {:.4g}, "
-                  "horizon = {:.4g}, l = {:.4g}; allowed are numbers that give finite ones above 0",
-                  input.file, tau0, stretch, energy, input.material.youngs_modulus, problem.micromodulus.horizon,
-                  problem.micromodulus.characteristic_length));
+                  "horizon = {:.4g}, "
+                  "l = {:.4g}; allowed are numbers that give finite ones above 0",
+                  input.file, tau0, stretch, energy, solid.youngs_modulus, horizon, length));
 }
 
 }  // namespace
 
 template <int dim>
 model::Problem<dim> make_problem(const Case& input) {
-  const Material& material = input.material;
-  const double ratio = materials::dilatational_ratio(material.elastic_model, material.poissons_ratio);
-  const auto c0 = materials::calibrate<dim>(material.elastic_model, material.youngs_modulus, material.poissons_ratio,
-                                            input.peridynamics.characteristic_length, input.peridynamics.horizon);
-  double critical_stretch = std::numeric_limits<double>::infinity();
-  if (material.critical_stretch) critical_stretch = *material.critical_stretch;
-  if (material.fracture_energy)
-    critical_stretch = materials::critical_stretch<dim>(c0, *material.fracture_energy, ratio);
-
-  model::Problem<dim> problem{
-      materials::elasticity_tensor<dim>(material.elastic_model, material.youngs_modulus, material.poissons_ratio),
-      ratio,
-      c0,
-      critical_stretch,
-      materials::fracture_energy<dim>(c0, critical_stretch, ratio),
-      {},
-      facets_of<dim>(input.pre_cracks),
-      input.boundary_conditions.displacements,
-      make_loads<dim>(input.boundary_conditions),
-      input.boundary_conditions.are_proportional()};
-  problem.calibration = material.calibration;
-  problem.is_stretch_given = material.critical_stretch.has_value();
+  model::Problem<dim> problem{{},
+                              {},
+                              facets_of<dim>(input.pre_cracks),
+                              input.boundary_conditions.displacements,
+                              make_loads<dim>(input),
+                              input.boundary_conditions.are_proportional()};
+  for (const Solid& solid : solids_of(input)) {
+    for (const auto& block : solid.blocks)
+      problem.material_of_block[block] = static_cast<int>(problem.materials.size());
+    problem.materials.push_back(make_material<dim>(input, solid));
+    check_numbers(input, problem.materials.back(), solid);
+  }
+  problem.interfaces = make_interfaces(input, problem.materials);
+  problem.calibration = input.material.calibration;
   for (const auto& seed : input.morphing.seeds) {
     if (seed.shape == SeedShape::automatic) {
       problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});
@@ -67,7 +117,6 @@ model::Problem<dim> make_problem(const Case& input) {
       problem.seeds.push_back(zone_of<dim>(seed));
     }
   }
-  check_numbers(input, problem);
   return problem;
 }
 

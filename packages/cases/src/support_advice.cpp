@@ -96,7 +96,7 @@ class Support {
 template <int dim>
 std::vector<std::string> advice_on_supports(const Case& input, const mesh::Mesh<dim>& whole) {
   std::vector<std::string> lines;
-  if (!input.material.breaks()) return lines;
+  if (!can_break(input)) return lines;
   for (const auto& one : input.boundary_conditions.displacements) {
     const auto stretch = Support<dim>(input, whole, one).stretch();
     if (stretch.isEmpty() || stretch.diagonal().norm() < input.peridynamics.horizon) continue;

@@ -93,9 +93,12 @@ std::vector<double> Loads<dim>::integrate(const mesh::Mesh<dim>& mesh, const ele
       }
     }
   }
-  const Point<dim> body = value(body_force_);
-  if (body.isZero(0.)) return forces;
+  const Point<dim> anywhere = value(body_force_), acceleration = value(self_weight_.acceleration);
+  if (anywhere.isZero(0.) && acceleration.isZero(0.)) return forces;
   for (int e = 0; e < mesh.n_elements(); ++e) {
+    const auto density = self_weight_.densities.find(mesh.block_names[mesh.blocks[e]]);
+    const bool is_other = density == self_weight_.densities.end();
+    const Point<dim> body = anywhere + (is_other ? self_weight_.other_density : density->second) * acceleration;
     for (int q = 0; q < points.count(e); ++q) {
       const double volume = points.weight(points.first(e) + q);
       for (int k = 0; k < mesh.n_corners(e); ++k) {

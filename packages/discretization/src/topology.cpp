@@ -45,7 +45,7 @@ Topology<dim>::Topology(const Teuchos::RCP<const base::Comm>& comm, const mesh::
       options_(std::move(options)),
       points_(mesh, options_.points_per_direction),
       alpha_(mesh, points_, options_.blending_function),
-      bonds_(mesh, points_, mesh::active_elements(mesh), options_.micromodulus, options_.pre_cracks,
+      bonds_(mesh, points_, mesh::active_elements(mesh), options_.materials, options_.pre_cracks,
              options_.stiffness),
       element_exchange_(element_exchange(*comm, mesh)),
       corner_exchange_(corner_exchange(*comm, mesh)),

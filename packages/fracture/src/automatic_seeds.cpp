@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "perimorph/base/errors.hpp"
@@ -29,16 +30,24 @@ std::vector<char> held_nodes(const mesh::Mesh<dim>& mesh, const Problem<dim>& pr
   return held;
 }
 
+/// By how much of the tenderest material's strain each element's counts: it is nearer to breaking.
+template <int dim>
+std::function<double(int)> tenderness(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
+  if (!problem.breaks()) return [](int) { return 1.; };
+  return [critical = model::critical_stretches(mesh, problem)](int e) { return critical.smallest() / critical(e, e); };
+}
+
 template <int dim>
 std::vector<StretchedPlace<dim>> own_free_elements(const Body<dim>& body, const Problem<dim>& problem) {
   const auto& mesh = body.mesh();
   const auto held = held_nodes(mesh, problem);
+  const auto weight = tenderness(mesh, problem);
   std::vector<StretchedPlace<dim>> own;
   for (int e = 0; e < mesh.n_owned_elements; ++e) {
     const int* corners = mesh.corners_of(e);
     if (std::any_of(corners, corners + mesh.n_corners(e), [&](int node) { return held[node] != 0; })) continue;
     StretchedPlace<dim> place{
-        mesh.element_ids[e], {}, operators::largest_principal_strain(body.model(), e, body.displacement())};
+        mesh.element_ids[e], {}, weight(e) * operators::largest_principal_strain(body.model(), e, body.displacement())};
     Eigen::Map<Point<dim>>(place.centroid.data()) = mesh::centroid(mesh, e);
     own.push_back(place);
   }
@@ -96,7 +105,8 @@ void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mes
                            base::Profile& profile, const base::Log& log) {
   if (problem.automatic_seeds.empty()) return;
   Problem<dim> elastic = problem;
-  elastic.critical_stretch = std::numeric_limits<double>::infinity();
+  for (auto& material : elastic.materials) material.toughness = {};
+  elastic.interfaces.clear();
   NumericalOptions accurate = options;
   accurate.tolerance = std::min(options.tolerance, 1e-9);  // much finer than strains are told apart
   Body<dim> body(comm, mesh, elastic, accurate, profile);

@@ -17,10 +17,26 @@ using base::Phase;
 namespace {
 
 template <int dim>
-discretization::TopologyOptions<dim> topology_options(const Problem<dim>& problem, const NumericalOptions& options) {
+materials::BondMaterials bond_materials(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
+  std::vector<materials::Micromodulus> micromoduli;
+  for (const auto& material : problem.materials) micromoduli.push_back(material.micromodulus);
+  return {std::move(micromoduli), model::materials_of_elements(mesh, problem)};
+}
+
+template <int dim>
+operators::MorphedStiffness<dim> elasticity(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem,
+                                            const NumericalOptions& options) {
+  std::vector<operators::Elasticity<dim>> all;
+  for (const auto& m : problem.materials) all.push_back({m.e0, dim * m.dilatational_ratio / (2 * (dim + 2))});
+  return {std::move(all), model::materials_of_elements(mesh, problem), options.peridynamic_stiffness};
+}
+
+template <int dim>
+discretization::TopologyOptions<dim> topology_options(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem,
+                                                      const NumericalOptions& options) {
   return {problem.seeds,
           problem.pre_cracks,
-          problem.micromodulus,
+          bond_materials(mesh, problem),
           options.blending_function,
           options.discontinuous,
           options.growth_inner_radius,
@@ -43,11 +59,11 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       problem_(problem),
       options_(options),
       profile_(profile),
-      topology_(comm, mesh, topology_options(problem, options)),
+      critical_stretches_(model::critical_stretches(mesh, problem)),
+      topology_(comm, mesh, topology_options(mesh, problem, options)),
       dirichlet_(*comm, mesh, problem.displacements),
-      system_(*comm, topology_, dirichlet_, problem.loads,
-              {problem.e0, options.peridynamic_stiffness, dim * problem.dilatational_ratio / (2 * (dim + 2))},
-              system_options(options), profile),
+      system_(*comm, topology_, dirichlet_, problem.loads, elasticity(mesh, problem, options), system_options(options),
+              profile),
       equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
                    options.tolerance, options.damage_tolerance);
@@ -150,7 +166,7 @@ std::string Body<dim>::reason_for(const std::string& trouble) const {
                        fmt::join(free[0].load, ", "));
   }
   const auto& u = system_.at_points().displacement;
-  const auto free = free_without(topology_.bonds().overstretched(u, problem_.critical_stretch, topology_.classes()));
+  const auto free = free_without(topology_.bonds().overstretched(u, critical_stretches_, topology_.classes()));
   if (free.empty()) return trouble;
   return fmt::format(
       "no equilibrium was found: only bonds beyond the critical stretch hold {} against a load of ({:.6g})",
@@ -160,10 +176,10 @@ std::string Body<dim>::reason_for(const std::string& trouble) const {
 template <int dim>
 GlobalId Body<dim>::break_bonds() {
   const auto timer = profile_.measure(Phase::bonds);
-  if (std::isinf(problem_.critical_stretch)) return 0;
+  if (!problem_.breaks()) return 0;
   PERIMORPH_ASSERT(system_.has_forces(), "nothing has been solved for load factor {}", state_.load_factor);
   auto change = bonds_that_break(*comm_, model(), system_.at_points(), topology_.classes(),
-                                 {problem_.critical_stretch, options_.breaking_fraction});
+                                 {critical_stretches_, options_.breaking_fraction});
   if (change.n_broken > 0 && model().has_dilatation()) {
     const double before = elastic_energy();
     publish(change);

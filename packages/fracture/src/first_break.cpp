@@ -10,37 +10,39 @@ namespace perimorph::fracture {
 
 namespace {
 
-/// The largest stretch among the bonds that may break, of all ranks; 0 if none reaches the threshold. Collective.
+/// The largest stretch over the critical one among the bonds that may break, of all ranks; 0 if none reaches the
+/// threshold. Collective.
 template <int dim>
-double largest_stretch(const base::Comm& comm, const Body<dim>& body, double factor, double threshold) {
+double largest_ratio(const base::Comm& comm, const Body<dim>& body, double factor, double threshold) {
   auto u = body.system().at_points().displacement;
   for (auto& one : u) one *= factor;
-  const auto stretches = body.topology().bonds().overstretches(u, threshold, body.topology().classes());
-  const auto largest = std::max_element(stretches.begin(), stretches.end());
-  return base::max(comm, largest == stretches.end() ? 0. : *largest);
+  const auto ratios =
+      body.topology().bonds().overstretches(u, body.critical_stretches().times(threshold), body.topology().classes());
+  const auto largest = std::max_element(ratios.begin(), ratios.end());
+  return base::max(comm, largest == ratios.end() ? 0. : threshold * *largest);
 }
 
 }  // namespace
 
 template <int dim>
-double load_of_first_break(const base::Comm& comm, const Body<dim>& body, double critical_stretch) {
-  PERIMORPH_ASSERT(std::isfinite(critical_stretch) && critical_stretch > 0. && body.load_factor() != 0.,
-                   "critical stretch {} at load factor {}", critical_stretch, body.load_factor());
+double load_of_first_break(const base::Comm& comm, const Body<dim>& body) {
+  PERIMORPH_ASSERT(body.critical_stretches().smallest() > 0. && body.load_factor() != 0.,
+                   "critical stretch {} at load factor {}", body.critical_stretches().smallest(), body.load_factor());
   double largest = 0.;
-  for (double threshold = critical_stretch; largest == 0. && threshold > 1e-12 * critical_stretch; threshold /= 8.) {
-    largest = largest_stretch(comm, body, 1., threshold);
+  for (double threshold = 1.; largest == 0. && threshold > 1e-12; threshold /= 8.) {
+    largest = largest_ratio(comm, body, 1., threshold);
   }
   if (largest == 0.) return std::numeric_limits<double>::infinity();
-  double factor = critical_stretch / largest;
+  double factor = 1. / largest;
   for (int i = 0; i < 4; ++i) {  // where bonds turn, their stretch does not grow quite like the displacement
-    largest = largest_stretch(comm, body, factor, 0.5 * critical_stretch);
+    largest = largest_ratio(comm, body, factor, 0.5);
     if (largest == 0.) break;
-    factor *= critical_stretch / largest;
+    factor /= largest;
   }
   return factor * body.load_factor();
 }
 
-template double load_of_first_break(const base::Comm&, const Body<2>&, double);
-template double load_of_first_break(const base::Comm&, const Body<3>&, double);
+template double load_of_first_break(const base::Comm&, const Body<2>&);
+template double load_of_first_break(const base::Comm&, const Body<3>&);
 
 }  // namespace perimorph::fracture

@@ -78,6 +78,18 @@ double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const P
   return static_cast<float>(sums[0] > 0. ? sums[1] / sums[0] : sums[3] / sums[2]);
 }
 
+namespace {
+
+void make_up_for(double resistance, materials::Toughness& toughness) {
+  if (toughness.is_stretch_given) {
+    toughness.fracture_energy *= resistance * resistance;
+  } else {
+    toughness.critical_stretch /= resistance;
+  }
+}
+
+}  // namespace
+
 bool is_calibrated_to_mesh(Calibration calibration, int dimension, int points_per_direction) {
   const bool is_measured = dimension == 2 && points_per_direction == 2;
   return is_measured && calibration == Calibration::mesh_consistent;
@@ -87,14 +99,16 @@ template <int dim>
 bool calibrate_to_mesh(Problem<dim>& problem, const NumericalOptions& options, double element_size) {
   PERIMORPH_ASSERT(element_size > 0., "elements of size {}", element_size);
   const bool is_calibrated = is_calibrated_to_mesh(problem.calibration, dim, options.points_per_direction);
-  if (!is_calibrated || std::isinf(problem.critical_stretch)) return false;
-  const double resistance =
-      lattice_resistance(options.discontinuous, options.peridynamic_stiffness,
-                         problem.micromodulus.characteristic_length / element_size, problem.dilatational_ratio);
-  if (problem.is_stretch_given) {
-    problem.fracture_energy *= resistance * resistance;
-  } else {
-    problem.critical_stretch /= resistance;
+  if (!is_calibrated || !problem.breaks()) return false;
+  std::vector<double> resistances;  // of materials
+  for (auto& material : problem.materials) {
+    resistances.push_back(lattice_resistance(options.discontinuous, options.peridynamic_stiffness,
+                                             material.micromodulus.characteristic_length / element_size,
+                                             material.dilatational_ratio));
+    make_up_for(resistances.back(), material.toughness);
+  }
+  for (auto& [first, second, toughness] : problem.interfaces) {
+    make_up_for(0.5 * (resistances[first] + resistances[second]), toughness);
   }
   return true;
 }

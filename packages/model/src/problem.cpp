@@ -1,19 +1,55 @@
 #include "perimorph/model/problem.hpp"
 
+#include <algorithm>
+
 #include "perimorph/mesh/distribute.hpp"
 
 namespace perimorph::model {
 
 template <int dim>
+bool Problem<dim>::breaks() const {
+  return std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.toughness.breaks(); });
+}
+
+template <int dim>
+std::vector<int> materials_of_elements(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
+  std::vector<int> of_block;
+  for (const auto& name : mesh.block_names) {
+    const auto found = problem.material_of_block.find(name);
+    of_block.push_back(found == problem.material_of_block.end() ? 0 : found->second);
+  }
+  std::vector<int> of_element;
+  for (const int block : mesh.blocks) of_element.push_back(of_block[block]);
+  return of_element;
+}
+
+template <int dim>
+bonds::CriticalStretches critical_stretches(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
+  const std::size_t n = problem.materials.size();
+  if (n == 1) return problem.materials[0].toughness.critical_stretch;
+  std::vector<double> by_pair(n * n);
+  for (std::size_t m = 0; m < n; ++m) by_pair[m * n + m] = problem.materials[m].toughness.critical_stretch;
+  for (const auto& [first, second, toughness] : problem.interfaces) {
+    by_pair[first * n + second] = by_pair[second * n + first] = toughness.critical_stretch;
+  }
+  return {std::move(by_pair), materials_of_elements(mesh, problem)};
+}
+
+template <int dim>
 mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
                                 const std::vector<double>& costs) {
   const bool is_uncracked_and_classical = !problem.has_zones() && problem.pre_cracks.empty();
-  return mesh::distribute(comm, whole, is_uncracked_and_classical ? 0. : problem.micromodulus.horizon, costs);
+  return mesh::distribute(comm, whole, is_uncracked_and_classical ? 0. : problem.horizon(), costs);
 }
 
-template mesh::Mesh<2> distribute_mesh<2>(const base::Comm&, const mesh::Mesh<2>&, const Problem<2>&,
-                                          const std::vector<double>&);
-template mesh::Mesh<3> distribute_mesh<3>(const base::Comm&, const mesh::Mesh<3>&, const Problem<3>&,
-                                          const std::vector<double>&);
+#define PERIMORPH_INSTANTIATE(dim)                                                                         \
+  template struct Problem<dim>;                                                                            \
+  template std::vector<int> materials_of_elements(const mesh::Mesh<dim>&, const Problem<dim>&);            \
+  template bonds::CriticalStretches critical_stretches(const mesh::Mesh<dim>&, const Problem<dim>&);       \
+  template mesh::Mesh<dim> distribute_mesh(const base::Comm&, const mesh::Mesh<dim>&, const Problem<dim>&, \
+                                           const std::vector<double>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
 
 }  // namespace perimorph::model

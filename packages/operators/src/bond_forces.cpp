@@ -37,6 +37,16 @@ RowPair squared(const std::array<RowPair, dim>& xi) {
   return sum;
 }
 
+/// c0 over the root of the product of both tau0.
+RowPair mean_decay(const RowPair& squared_lengths, const materials::Micromodulus& one,
+                   const materials::Micromodulus& other) {
+  const RowPair decay = materials::decay(squared_lengths, one.characteristic_length);
+  if (&one == &other) return decay;
+  const RowPair of_one = one.tau0 * decay;
+  const RowPair of_other = other.tau0 * materials::decay(squared_lengths, other.characteristic_length);
+  return materials::harmonic_mean(of_one, of_other) / std::sqrt(one.tau0 * other.tau0);
+}
+
 /// Adds to the first packet's points what two rows of bonds have summed up.
 void add_rows(const RowPair& sum, double* at_points) {
   at_points[0] += first_row(sum).sum();
@@ -131,10 +141,10 @@ BondForces<dim>::BondForces(const CoupledModel<dim>& model)
 template <int dim>
 void BondForces<dim>::make_packets() {
   const auto& bonds = model_.bonds;
-  const double root_of_tau0 = std::sqrt(bonds.micromodulus().tau0);
   for (int e = 0; e < model_.mesh.n_elements(); ++e) {
     if (bonds.pairs_of(e).empty()) continue;
     first_packet_[e] = static_cast<int>(packets_.size());
+    const double root_of_tau0 = std::sqrt(bonds.materials().micromodulus_of(e).tau0);
     for (int q = 0; q < model_.points.count(e); q += n_lanes) {
       packets_.push_back({e, shapes_of(model_.points.reference(e), q)});
       const int first = model_.points.first(e) + q, n = std::min(n_lanes, model_.points.count(e) - q);
@@ -205,15 +215,17 @@ template <int dim>
 void BondForces<dim>::make_dilatation() {
   constexpr int most_lanes = (elements::max_points + n_lanes - 1) / n_lanes * n_lanes;
   std::vector<base::GlobalId> ids;
+  std::vector<double> factors;
   std::size_t n_owned = 0;
   for (int e = 0; e < model_.mesh.n_elements(); ++e) {
     if (first_packet_[e] < 0) continue;
     for (int q = 0; q < model_.points.count(e); q += n_lanes) {
       for (int lane = 0; lane < n_lanes; ++lane) ids.push_back(model_.mesh.element_ids[e] * most_lanes + q + lane);
     }
+    factors.resize(ids.size(), model_.elasticity.dilatation_factor(e));
     if (e < model_.mesh.n_owned_elements) n_owned = ids.size();
   }
-  dilatation_.emplace(model_.dofs.owned_dofs()->getComm(), ids, n_owned, model_.elasticity.dilatation_factor());
+  dilatation_.emplace(model_.dofs.owned_dofs()->getComm(), ids, n_owned, std::move(factors));
   stretches_.resize(ids.size());
   model_.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
     if (bond.is_broken) return;
@@ -280,7 +292,7 @@ void BondForces<dim>::gather(const double* u) const {
 template <int dim>
 template <bool on_the_fly, class Sum>
 void BondForces<dim>::pass_over_blocks(Sum& sum) const {
-  const double length = model_.bonds.micromodulus().characteristic_length;
+  const auto& materials = model_.bonds.materials();
   const float* stiffness = stiffness_.data();
   for (std::size_t a = 0; a < packets_.size(); ++a) {
     std::array<std::array<RowPair, dim>, n_lanes / 2> x_a, u_a;
@@ -293,6 +305,7 @@ void BondForces<dim>::pass_over_blocks(Sum& sum) const {
       alpha_a[rows] = first_ends(alpha_.data() + a * n_lanes + 2 * rows);
       if constexpr (on_the_fly) weights_a[rows] = first_ends(weights_.data() + a * n_lanes + 2 * rows);
     }
+    const materials::Micromodulus& own = materials.micromodulus_of(packets_[a].element);
     sum.start(a);
     for (std::size_t block = first_block_[a]; block < first_block_[a + 1]; ++block) {
       const std::size_t b = second_[block];
@@ -313,7 +326,8 @@ void BondForces<dim>::pass_over_blocks(Sum& sum) const {
         }
         RowPair k;
         if constexpr (on_the_fly) {
-          k = keep(mask, materials::decay(squared<dim>(xi), length)) *
+          const materials::Micromodulus& other = materials.micromodulus_of(packets_[b].element);
+          k = keep(mask, mean_decay(squared<dim>(xi), own, other)) *
               (twice(weights_.data() + b * n_lanes) * weights_a[rows]);
         } else {
           k = expand(mask, stiffness);

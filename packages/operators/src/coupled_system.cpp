@@ -28,8 +28,8 @@ CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::
       elasticity_(std::move(elasticity)) {
   PERIMORPH_ASSERT(options.preconditioner_matrix == PreconditionerMatrix::coupled || options.short_range_cut_off > 0.,
                    "short-range bonds up to {}", options.short_range_cut_off);
-  PERIMORPH_ASSERT(elasticity_.dilatation_factor() == 0. || options.operator_form != OperatorForm::crs,
-                   "a matrix with dilatation factor {}", elasticity_.dilatation_factor());
+  PERIMORPH_ASSERT(!elasticity_.has_dilatation() || options.operator_form != OperatorForm::crs,
+                   "dilatation in the operator's form {}", static_cast<int>(options.operator_form));
 }
 
 template <int dim>
@@ -111,7 +111,7 @@ std::vector<int> CoupledSystem<dim>::take(const bonds::BondChange& change) {
   std::vector<int> changed;
   if (matrix_) changed = matrix_->take(change);
   if (short_range_) changed = short_range_->take(change);
-  if (elasticity_.dilatation_factor() != 0.) has_forces_ = false;
+  if (elasticity_.has_dilatation()) has_forces_ = false;
   if (has_forces_) subtract_bond_forces(model(), change.broken, at_points_, internal_);
   return changed;
 }

@@ -10,9 +10,10 @@
 namespace perimorph::operators {
 
 Dilatation::Dilatation(const Teuchos::RCP<const base::Comm>& comm, const std::vector<base::GlobalId>& ids,
-                       std::size_t n_owned, double factor)
-    : factor_(factor), n_owned_(n_owned), weighted_volumes_(ids.size(), 0.), n_bonds_(ids.size(), 0) {
-  PERIMORPH_ASSERT(n_owned <= ids.size(), "{} of {} points are owned", n_owned, ids.size());
+                       std::size_t n_owned, std::vector<double> factors)
+        : factors_(std::move(factors)), n_owned_(n_owned), weighted_volumes_(ids.size(), 0.), n_bonds_(ids.size(), 0) {
+  PERIMORPH_ASSERT(n_owned <= ids.size() && factors_.size() == ids.size(), "{} of {} points are owned, {} factors",
+                   n_owned, ids.size(), factors_.size());
   if (comm->getSize() == 1) return;
   const auto unknown = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   const auto map_of = [&](std::size_t n) {
@@ -39,7 +40,7 @@ void Dilatation::remove(std::size_t point, double weight) {
 void Dilatation::to_stretch(std::vector<double>& sums) const {
   PERIMORPH_ASSERT(sums.size() == n_bonds_.size(), "{} sums at {} points", sums.size(), n_bonds_.size());
   for (std::size_t i = 0; i < n_owned_; ++i) {
-    sums[i] = n_bonds_[i] > 0 ? factor_ / weighted_volumes_[i] * sums[i] : 0.;
+    sums[i] = n_bonds_[i] > 0 ? factors_[i] / weighted_volumes_[i] * sums[i] : 0.;
   }
   if (import_.is_null()) return;
   std::copy_n(sums.begin(), n_owned_, owned_->getDataNonConst().begin());
@@ -48,7 +49,7 @@ void Dilatation::to_stretch(std::vector<double>& sums) const {
 }
 
 std::size_t Dilatation::bytes() const {
-  return weighted_volumes_.size() * (sizeof(double) + sizeof(int)) +
+  return weighted_volumes_.size() * (2 * sizeof(double) + sizeof(int)) +
          (import_.is_null() ? 0 : 2 * sizeof(double)) * n_bonds_.size();
 }
 

@@ -60,14 +60,14 @@ LocalForces<dim>::LocalForces(const CoupledModel<dim>& model)
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (!model.bonds.is_active(e) || model.elasticity.is_zero(e)) continue;
     const int n = model.mesh.n_corners(e), n_points = model.points.count(e);
-    Group& g = group(n, n_points, !model.elasticity.is_e0(e));
+    Group& g = group(n, n_points, model.elasticity.is_e0(e) ? &model.elasticity.e0(e) : nullptr);
     n_elements.resize(groups_.size(), 0);
     const std::size_t position = n_elements[&g - groups_.data()]++;
     const std::size_t four = position / n_lanes, lane = position % n_lanes;
     if (lane == 0) {
       g.nodes.resize(g.nodes.size() + n * n_lanes, model.dofs.nodes_of(e)[0]);
       g.gradients.resize(g.gradients.size() + n_points * n * dim * n_lanes, 0.);
-      if (g.has_own_stiffness) g.stiffness.resize(g.stiffness.size() + n_points * n_moduli<dim> * n_lanes, 0.);
+      if (g.e0 == nullptr) g.stiffness.resize(g.stiffness.size() + n_points * n_moduli<dim> * n_lanes, 0.);
     }
     for (int k = 0; k < n; ++k) g.nodes[(four * n + k) * n_lanes + lane] = model.dofs.nodes_of(e)[k];
     for (int q = 0; q < n_points; ++q) {
@@ -77,7 +77,7 @@ LocalForces<dim>::LocalForces(const CoupledModel<dim>& model)
       for (int k = 0; k < n; ++k) {
         for (int c = 0; c < dim; ++c) target[(k * dim + c) * n_lanes] = root * gradients(c, k);
       }
-      if (!g.has_own_stiffness) continue;
+      if (g.e0 != nullptr) continue;
       double* modulus = g.stiffness.data() + (four * n_points + q) * n_moduli<dim> * n_lanes + lane;
       for (int v = 0; v < base::n_voigt<dim>; ++v) {
         for (int w = 0; w <= v; ++w, modulus += n_lanes) *modulus = model.elasticity.at(e, q)(v, w);
@@ -87,11 +87,12 @@ LocalForces<dim>::LocalForces(const CoupledModel<dim>& model)
 }
 
 template <int dim>
-typename LocalForces<dim>::Group& LocalForces<dim>::group(int n_corners, int n_points, bool has_own_stiffness) {
+typename LocalForces<dim>::Group& LocalForces<dim>::group(int n_corners, int n_points,
+                                                            const base::Stiffness<dim>* e0) {
   for (auto& g : groups_) {
-    if (g.n_corners == n_corners && g.n_points == n_points && g.has_own_stiffness == has_own_stiffness) return g;
+    if (g.n_corners == n_corners && g.n_points == n_points && g.e0 == e0) return g;
   }
-  groups_.push_back({n_corners, n_points, has_own_stiffness, {}, {}, {}});
+  groups_.push_back({n_corners, n_points, e0, {}, {}, {}});
   return groups_.back();
 }
 
@@ -111,7 +112,6 @@ template <int dim>
 template <int n>
 void LocalForces<dim>::add(const Group& g, const double* u, double* force) const {
   constexpr int n_voigt = base::n_voigt<dim>;
-  const base::Stiffness<dim>& e0 = model_.elasticity.e0();
   const double* gradients = g.gradients.data();
   const double* moduli = g.stiffness.data();
   for (std::size_t first = 0; first < g.nodes.size(); first += n * n_lanes) {
@@ -127,7 +127,7 @@ void LocalForces<dim>::add(const Group& g, const double* u, double* force) const
       const auto strains = strain<dim, n>(gradients, displacement);
       std::array<Lanes, n_voigt> stresses;
       stresses.fill(Lanes::Zero());
-      if (g.has_own_stiffness) {
+      if (g.e0 == nullptr) {
         for (int v = 0; v < n_voigt; ++v) {
           for (int w = 0; w <= v; ++w, moduli += n_lanes) {
             stresses[v] += LanesMap(moduli) * strains[w];
@@ -136,7 +136,7 @@ void LocalForces<dim>::add(const Group& g, const double* u, double* force) const
         }
       } else {
         for (int v = 0; v < n_voigt; ++v) {
-          for (int w = 0; w < n_voigt; ++w) stresses[v] += e0(v, w) * strains[w];
+          for (int w = 0; w < n_voigt; ++w) stresses[v] += (*g.e0)(v, w) * strains[w];
         }
       }
       add_divergence<dim, n>(gradients, stresses, forces);

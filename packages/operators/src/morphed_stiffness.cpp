@@ -32,15 +32,32 @@ void MorphedStiffness<dim>::update(const mesh::Mesh<dim>& mesh, const elements::
   const auto is_alpha_new = take_over(points, alpha);
   seen_.resize(mesh.n_elements());
   for (int e = 0; e < mesh.n_elements(); ++e) {
-    is_zero_[e] = classes[e] == morphing::ElementClass::pd && policy_ == PeridynamicStiffness::dropped;
-    const Seen now{bonds.pairs_of(e).size(), is_zero_[e], discontinuous[e]};
+    const bool is_mixed = sees_another_material(e, bonds);
+    is_zero_[e] = classes[e] == morphing::ElementClass::pd && policy_ == PeridynamicStiffness::dropped &&
+                  !(is_mixed && !bonds.is_damaged(e));
+    const char is_clipped = discontinuous[e] || is_mixed;
+    const Seen now{bonds.pairs_of(e).size(), is_zero_[e], is_clipped};
     const bool is_touched = std::any_of(bonds.pairs_of(e).begin(), bonds.pairs_of(e).end(), [&](int p) {
       return is_alpha_new[bonds.pair(p).first] || is_alpha_new[bonds.pair(p).second];
     });
     if (now == seen_[e] && !is_touched) continue;
     seen_[e] = now;
-    if (now.n_pairs > 0) compute(e, points, bonds, discontinuous[e]);
+    if (now.n_pairs > 0) compute(e, points, bonds, is_clipped != 0);
   }
+}
+
+template <int dim>
+bool MorphedStiffness<dim>::sees_another_material(int element, const bonds::BondFamilies<dim>& bonds) const {
+  if (of_element_.empty()) return false;
+  const auto& pairs = bonds.pairs_of(element);
+  return std::any_of(pairs.begin(), pairs.end(), [&](int p) {
+    return material_of(bonds.pair(p).first) != material_of(bonds.pair(p).second);
+  });
+}
+
+template <int dim>
+bool MorphedStiffness<dim>::has_dilatation() const {
+  return std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m.dilatation_factor != 0.; });
 }
 
 /// Keeps alpha; returns per element whether it has changed at one of its points.
@@ -59,7 +76,7 @@ std::vector<char> MorphedStiffness<dim>::take_over(const elements::MaterialPoint
 
 template <int dim>
 void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<dim>& points,
-                                    const bonds::BondFamilies<dim>& bonds, bool is_discontinuous) {
+                                    const bonds::BondFamilies<dim>& bonds, bool is_clipped) {
   const int n_points = points.count(element);
   if (first_[element] < 0) {
     first_[element] = static_cast<int>(reduced_.size());
@@ -87,11 +104,12 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
       if (bond.second_element == element) add_at(bond.second_end);
     });
   }
+  const double factor = dilatation_factor(element);
   for (int q = 0; q < n_points; ++q) {
     const auto& [t, weighted] = volumes[q];
-    if (weighted > 0. && dilatation_factor_ != 0.) reduced[q] += dilatation_factor_ / weighted * t * t.transpose();
-    reduced[q] = e0_ - reduced[q] / points.weight(points.first(element) + q);
-    if (is_discontinuous) reduced[q] = positive_part<dim>(reduced[q]);
+    if (weighted > 0. && factor != 0.) reduced[q] += factor / weighted * t * t.transpose();
+    reduced[q] = e0(element) - reduced[q] / points.weight(points.first(element) + q);
+    if (is_clipped) reduced[q] = positive_part<dim>(reduced[q]);
   }
 }
 

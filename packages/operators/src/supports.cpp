@@ -16,7 +16,7 @@ Supports<dim>::Supports(const CoupledModel<dim>& model, const discretization::Sp
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     double volume = 0.;
     for (int p = model.points.first(e); p < model.points.first(e + 1); ++p) volume += model.points.weight(p);
-    const double stiffness = model.elasticity.e0()(0, 0) * std::pow(volume, (dim - 2.) / dim);
+    const double stiffness = model.elasticity.e0(e)(0, 0) * std::pow(volume, (dim - 2.) / dim);
     for (int k = 0; k < model.mesh.n_corners(e); ++k) {
       const int node = model.dofs.nodes_of(e)[k];
       if (node >= model.dofs.n_owned_nodes()) continue;

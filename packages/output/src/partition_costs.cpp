@@ -37,8 +37,7 @@ std::vector<double> own_costs(const Body<dim>& body) {
 template <int dim>
 std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const model::Problem<dim>& problem,
                                    discretization::DiscontinuousElements discontinuous) {
-  PERIMORPH_ASSERT(problem.seeds.empty() || problem.micromodulus.horizon > 0., "seeds with a horizon of {}",
-                   problem.micromodulus.horizon);
+  PERIMORPH_ASSERT(problem.seeds.empty() || problem.horizon() > 0., "seeds with a horizon of {}", problem.horizon());
   std::vector<double> costs(whole.n_elements(), 1.);
   for (int e = 0; e < whole.n_elements(); ++e) {
     const auto center = mesh::centroid(whole, e);
@@ -52,7 +51,7 @@ std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const model::Pr
     }
     const double n_points = whole.n_corners(e);  // as many as corners, about
     // A square or cube with this radius: the horizon's ball holds 1.6 or 2.7 times (horizon / radius)^dim of them.
-    const double n_partners = (dim == 2 ? 1.6 : 2.7) * std::pow(problem.micromodulus.horizon / radius, dim);
+    const double n_partners = (dim == 2 ? 1.6 : 2.7) * std::pow(problem.horizon() / radius, dim);
     costs[e] = cost<dim>(discontinuous == discretization::DiscontinuousElements::whole_zone, whole.n_corners(e),
                          0.5 * n_points * n_points * n_partners);
   }

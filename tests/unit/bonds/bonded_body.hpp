@@ -69,9 +69,7 @@ struct BondedBody {
   BondList list() const {
     BondList all;
     for_each_bond([&](int p, std::size_t b) {
-      const auto [first, second] = bonds.pair(p);
-      const int i = points.first(first) + bonds.first_end(b), j = points.first(second) + bonds.second_end(b);
-      all.emplace(global_ends(p, b), bonds.stiffness(b, i, j));
+      all.emplace(global_ends(p, b), bonds.stiffness(bonds.bond(p, b)));
     });
     return all;
   }

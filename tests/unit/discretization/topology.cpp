@@ -30,7 +30,7 @@ class Topology : public testing::Test {
             mesh,
             {{morphing::Zone<2>::ball({5., 4.}, 4., 6.)},
              {},
-             {100., 0.4, horizon},
+             materials::Micromodulus{100., 0.4, horizon},
              morphing::BlendingFunction::linear,
              discretization::DiscontinuousElements::on_damage,
              2. * horizon,

@@ -38,40 +38,33 @@ TEST(LatticeResistance, GrowsWithWhatTheVolumeCarries) {
 /// Without loads, on elements of 1 with l = 0.2.
 Problem<2> some_problem(Calibration calibration = Calibration::mesh_consistent) {
   const auto plane_stress = materials::ElasticModel::plane_stress;
-  const auto c0 = materials::calibrate<2>(plane_stress, 1000., 1. / 3., 0.2, 3.);
-  Problem<2> problem{materials::elasticity_tensor<2>(plane_stress, 1000., 1. / 3.),
-                     0.,
-                     c0,
-                     0.01,
-                     materials::fracture_energy<2>(c0, 0.01),
-                     {},
-                     {},
-                     {},
-                     {{}, {base::Point<2>::Zero(), base::Point<2>::Zero()}},
-                     true};
+  auto material = materials::elastic_material<2>(plane_stress, 1000., 1. / 3., 0.2, 3.);
+  material.toughness = {0.01, materials::fracture_energy<2>(material.micromodulus, 0.01)};
+  Problem<2> problem{{material}, {}, {}, {}, {{}, {base::Point<2>::Zero(), base::Point<2>::Zero()}}, true};
   problem.calibration = calibration;
   return problem;
 }
 
 TEST(CalibrationToTheMesh, LowersTheCriticalStretchByTheResistance) {
   Problem<2> problem = some_problem();
-  const double given = problem.fracture_energy;
+  const double given = problem.materials[0].toughness.fracture_energy;
 
   EXPECT_TRUE(calibrate_to_mesh(problem, {}, 1.));
 
-  EXPECT_DOUBLE_EQ(problem.critical_stretch, 0.01 / lattice_resistance(on_damage, dropped, 0.2));
-  EXPECT_EQ(problem.fracture_energy, given);
+  EXPECT_DOUBLE_EQ(problem.materials[0].toughness.critical_stretch, 0.01 / lattice_resistance(on_damage, dropped, 0.2));
+  EXPECT_EQ(problem.materials[0].toughness.fracture_energy, given);
 }
 
 TEST(CalibrationToTheMesh, LeavesAGivenCriticalStretchAndRaisesTheFractureEnergy) {
   Problem<2> problem = some_problem();
-  problem.is_stretch_given = true;
-  const double analytic = problem.fracture_energy;
+  problem.materials[0].toughness.is_stretch_given = true;
+  const double analytic = problem.materials[0].toughness.fracture_energy;
 
   calibrate_to_mesh(problem, {}, 1.);
 
-  EXPECT_EQ(problem.critical_stretch, 0.01);
-  EXPECT_DOUBLE_EQ(problem.fracture_energy, analytic * std::pow(lattice_resistance(on_damage, dropped, 0.2), 2));
+  EXPECT_EQ(problem.materials[0].toughness.critical_stretch, 0.01);
+  EXPECT_DOUBLE_EQ(problem.materials[0].toughness.fracture_energy,
+                   analytic * std::pow(lattice_resistance(on_damage, dropped, 0.2), 2));
 }
 
 TEST(CalibrationToTheMesh, ChangesNothingWhereTheResistanceHasNotBeenMeasured) {
@@ -81,7 +74,7 @@ TEST(CalibrationToTheMesh, ChangesNothingWhereTheResistanceHasNotBeenMeasured) {
 
   EXPECT_FALSE(calibrate_to_mesh(problem, options, 1.));
 
-  EXPECT_EQ(problem.critical_stretch, 0.01);
+  EXPECT_EQ(problem.materials[0].toughness.critical_stretch, 0.01);
 }
 
 TEST(CalibrationToTheMesh, AnalyticChangesNothing) {
@@ -89,8 +82,8 @@ TEST(CalibrationToTheMesh, AnalyticChangesNothing) {
 
   calibrate_to_mesh(problem, {}, 1.);
 
-  EXPECT_EQ(problem.critical_stretch, 0.01);
-  EXPECT_EQ(problem.fracture_energy, some_problem().fracture_energy);
+  EXPECT_EQ(problem.materials[0].toughness.critical_stretch, 0.01);
+  EXPECT_EQ(problem.materials[0].toughness.fracture_energy, some_problem().materials[0].toughness.fracture_energy);
 }
 
 /// Squares of 1 for x < 4, twice as wide beyond.

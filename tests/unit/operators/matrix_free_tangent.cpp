@@ -12,16 +12,17 @@ namespace {
 using Vector = Tpetra::Vector<double>;
 
 /// Irregular elements, a zone in the middle, a side held; 11 x 9 elements, so that fours of elements stay incomplete.
-Setup held(bool discontinuous, bool triangles, bonds::StiffnessStorage kept) {
+Setup held(bool discontinuous, bool triangles, bonds::StiffnessStorage kept, double stiffer = 1.) {
   Setup setup{{11, 9, 11., 9., Point2::Zero(), 0.15, triangles}, 2.5, 0.5, {}};
   setup.zones = {morphing::Zone<2>::ball({5., 4.}, 3., 4.5)};
   setup.whole_zone_discontinuous = discontinuous;
   setup.prescribed = {{"hold", "left", 0, {0., 0.}}, {"hold", "left", 1, {0., 0.}}};
   setup.kept = kept;
+  setup.stiffer = stiffer;
   return setup;
 }
 
-class MatrixFreeTangent : public ::testing::TestWithParam<std::tuple<bool, bool, bonds::StiffnessStorage>> {
+class MatrixFreeTangent : public ::testing::TestWithParam<std::tuple<bool, bool, bonds::StiffnessStorage, double>> {
  protected:
   CoupledBody body{std::apply(held, GetParam())};
   operators::ForceTerms<2> terms = body.terms();
@@ -105,7 +106,8 @@ TEST_P(MatrixFreeTangent, AddsToAScaledVector) {
 INSTANTIATE_TEST_SUITE_P(Meshes, MatrixFreeTangent,
                          ::testing::Combine(::testing::Bool(), ::testing::Bool(),
                                             ::testing::Values(bonds::StiffnessStorage::stored,
-                                                              bonds::StiffnessStorage::on_the_fly)));
+                                                              bonds::StiffnessStorage::on_the_fly),
+                                            ::testing::Values(1., 5.)));
 
 TEST(StiffnessOnTheFly, NeedsLessMemoryAndIsThatWhichIsStored) {
   const CoupledBody stored(held(false, false, bonds::StiffnessStorage::stored));

@@ -7,7 +7,8 @@
 #include "perimorph/bonds/bond.hpp"
 #include "perimorph/bonds/bond_change.hpp"
 #include "perimorph/bonds/visibility.hpp"
-#include "perimorph/materials/micromodulus.hpp"
+#include "perimorph/bonds/critical_stretches.hpp"
+#include "perimorph/materials/bond_materials.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
 
 namespace perimorph::bonds {
@@ -29,11 +30,11 @@ class BondFamilies {
   /// No bonds yet: extend() adds them. Local. Mesh and points must outlive this.
   /// @param points of that mesh
   /// @param active per element, (n_elements): whether it is around a node that this rank owns (mesh::active_elements)
-  /// @param micromodulus the strength of bonds by their length, and the horizon
+  /// @param materials the stiffness of bonds by their ends and length, and the horizon
   /// @param pre_cracks facets that no bond crosses, the same on all ranks, (n), [length]
   /// @param kept whether stiffnesses are stored or computed from the points each time
   BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, std::vector<char> active,
-               const materials::Micromodulus& micromodulus, const std::vector<mesh::CrackFacet<dim>>& pre_cracks,
+               const materials::BondMaterials& materials, const std::vector<mesh::CrackFacet<dim>>& pre_cracks,
                StiffnessStorage kept = StiffnessStorage::stored);
 
   /// Adds the bonds of elements that have come to carry bonds; those already known are passed over. Local.
@@ -75,15 +76,12 @@ class BondFamilies {
   int second_end(BondId b) const { return (ends_of(b) & ~broken_bit) % elements::max_points; }
   /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; in single
   /// precision, so that every form of the operator has the same bonds.
-  /// @param first_point,second_point its ends as local material points
-  double stiffness(BondId b, int first_point, int second_point) const {
-    PERIMORPH_DEBUG_ASSERT(b < n_bonds(), "bond {} of {}", b, n_bonds());
-    return computes_stiffness() ? stiffness_on_the_fly(first_point, second_point) : stiffness_[b];
+  double stiffness(const Bond<dim>& bond) const {
+    PERIMORPH_DEBUG_ASSERT(bond.id < n_bonds(), "bond {} of {}", bond.id, n_bonds());
+    return computes_stiffness() ? stiffness_on_the_fly(bond) : stiffness_[bond.id];
   }
-  /// The same of a bond as it is handed out, [force / length^3].
-  double stiffness(const Bond<dim>& bond) const { return stiffness(bond.id, bond.first_point, bond.second_point); }
   bool computes_stiffness() const { return kept_ == StiffnessStorage::on_the_fly; }
-  const materials::Micromodulus& micromodulus() const { return micromodulus_; }
+  const materials::BondMaterials& materials() const { return materials_; }
   bool broken(BondId b) const { return (ends_of(b) & broken_bit) != 0; }
   int pair_of(BondId b) const;
 
@@ -116,17 +114,18 @@ class BondFamilies {
   /// @param alpha at the points that the bonds join
   Extremes neighbourhood_extremes(const morphing::MorphingField<dim>& alpha) const;
 
-  /// The intact bonds whose stretch reaches the critical one [WHL19, eq. 6, 7], between two different elements that
+  /// The intact bonds whose stretch reaches their critical one [WHL19, eq. 6, 7], between two different elements that
   /// both may break, ascending. Local: every rank that holds a bond decides alike.
   /// @param displacements at the points, (n_points), [length]; only those of elements with bonds are read
-  /// @param critical_stretch s_crit >= 0, [-]
   /// @param classes by local element, (n_elements): those of PD may break
-  std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
+  std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements,
+                                    const CriticalStretches& critical,
                                     const std::vector<morphing::ElementClass>& classes) const;
 
-  /// Their stretches, (n), [-]; those of which this rank owns the first element, so that each comes from one rank.
-  /// Arguments as there. Local.
-  std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
+  /// Their stretches over their critical ones, (n), [-]; those of which this rank owns the first element, so that each
+  /// comes from one rank. Arguments as there. Local.
+  std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements,
+                                    const CriticalStretches& critical,
                                     const std::vector<morphing::ElementClass>& classes) const;
 
   /// Marks bonds as broken: intact ones, between two different elements. Local.
@@ -136,7 +135,7 @@ class BondFamilies {
   const mesh::Mesh<dim>& mesh_;
   const elements::MaterialPoints<dim>& points_;
   std::vector<char> active_;
-  materials::Micromodulus micromodulus_;
+  materials::BondMaterials materials_;
   StiffnessStorage kept_;
   Visibility<dim> visibility_;
   std::vector<base::Point<dim>> centroids_;
@@ -158,9 +157,9 @@ class BondFamilies {
     PERIMORPH_DEBUG_ASSERT(b < n_bonds(), "bond {} of {}", b, n_bonds());
     return ends_[b];
   }
-  double stiffness_on_the_fly(int first_point, int second_point) const;
+  double stiffness_on_the_fly(const Bond<dim>& bond) const;
   template <class Visit>
-  void for_each_overstretched(const std::vector<base::Point<dim>>& displacements, double critical_stretch,
+  void for_each_overstretched(const std::vector<base::Point<dim>>& displacements, const CriticalStretches& critical,
                               const std::vector<morphing::ElementClass>& classes, Visit visit) const;
   void check_arguments() const;
   void add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles);

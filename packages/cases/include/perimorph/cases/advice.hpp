@@ -12,9 +12,9 @@ namespace perimorph::cases {
 /// @param element_size in the seeds, [length] (model/calibration.hpp)
 std::vector<std::string> advice(const Case& input, double element_size);
 
-/// Whether the critical stretch, given or derived, looks like a mistake of units. Local.
-/// @param critical_stretch s_crit, infinite if nothing breaks [-]
-std::vector<std::string> advice_on_stretch(const Case& input, double critical_stretch);
+/// Whether critical stretches, given or derived, look like a mistake of units. Local.
+/// @param critical_stretches s_crit of each material (solids_of), infinite if it does not break, [-]
+std::vector<std::string> advice_on_stretches(const Case& input, const std::vector<double>& critical_stretches);
 
 /// Whether the increments fit the load at which the first bond breaks. Local.
 /// @param first_break its load factor; infinite if no bond is stretched [-]

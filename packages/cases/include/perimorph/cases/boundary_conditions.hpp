@@ -19,7 +19,8 @@ struct Traction {
 struct BoundaryConditions {
   std::vector<discretization::PrescribedComponent> displacements;
   std::vector<Traction> tractions;
-  std::vector<double> body_force_rate, body_force_constant;  ///< (dim), [force / volume]
+  std::vector<double> body_force_rate, body_force_constant;    ///< (dim), [force / volume]
+  std::vector<double> self_weight_rate, self_weight_constant;  ///< (dim), [length / time^2]
 
   /// Whether all grow with the increment from zero.
   bool are_proportional() const;

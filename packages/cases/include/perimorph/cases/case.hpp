@@ -29,6 +29,8 @@ struct Case {
 
   MeshSource mesh;
   Material material;
+  std::vector<Solid> materials;  ///< beside it
+  std::vector<Interface> interfaces;
   Peridynamics peridynamics;
   Morphing morphing;
   std::vector<PreCrack> pre_cracks;
@@ -41,6 +43,12 @@ struct Case {
   Teuchos::ParameterList resolved;   ///< every parameter with its value, defaults filled in
   std::map<std::string, int> lines;  ///< "/Section/Name" -> line in the file; 0: on the command line
 };
+
+/// The material of the body, and then the others. Local.
+std::vector<Solid> solids_of(const Case& input);
+
+/// Whether any of them breaks. Local.
+bool can_break(const Case& input);
 
 /// Every parameter with default, documentation and rule (input/resolved.hpp). Local.
 Teuchos::ParameterList case_schema();

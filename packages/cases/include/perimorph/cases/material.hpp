@@ -9,24 +9,49 @@
 
 namespace perimorph::cases {
 
-/// One homogeneous, isotropic, linearly elastic, brittle material.
-struct Material {
-  double youngs_modulus = 0.;  ///< [stress]
-  double poissons_ratio = 0.;  ///< [-]
-  materials::ElasticModel elastic_model = materials::ElasticModel::plane_stress;
-  std::optional<double> critical_stretch, fracture_energy;  ///< [-], [energy / area]; at most one; none: nothing breaks
-  model::Calibration calibration = model::Calibration::mesh_consistent;
+/// When something breaks: at most one is given; with neither it never does.
+struct Fracture {
+  std::optional<double> critical_stretch;  ///< [-]
+  std::optional<double> fracture_energy;   ///< [energy / area]
 
   bool breaks() const { return critical_stretch || fracture_energy; }
 };
 
+/// A homogeneous, isotropic, linearly elastic, brittle material.
+struct Solid : Fracture {
+  std::string name = "body";
+  std::vector<std::string> blocks;              ///< of the mesh, that it fills
+  double youngs_modulus = 0.;                   ///< [stress]
+  double poissons_ratio = 0.;                   ///< [-]
+  double density = 0.;                          ///< [mass / volume]
+  std::optional<double> characteristic_length;  ///< [length]; none: that of all
+};
+
+/// The material of all blocks that no other fills, and what holds for all materials.
+struct Material : Solid {
+  materials::ElasticModel elastic_model = materials::ElasticModel::plane_stress;
+  model::Calibration calibration = model::Calibration::mesh_consistent;
+};
+
+/// Where two materials meet.
+struct Interface : Fracture {
+  std::string name;
+  std::vector<std::string> materials;  ///< two
+};
+
 void declare(const input::Section& section, Material& material);
-void check_material(const input::Values& section, int dimension);
+void declare(const input::Section& section, Solid& solid);
+void declare(const input::Section& section, Interface& interface);
 
-/// A Poisson's ratio that stands for the exact one (0.333 for 1/3) becomes that.
-void complete_material(Teuchos::ParameterList& values);
+/// What the values of the materials and of their interfaces must agree on.
+/// @param root of a case
+void check_materials(const input::Values& root, int dimension);
 
-/// Whether the dilatation carries what bonds alone cannot: for other Poisson's ratios than theirs.
-bool has_dilatation(const input::Values& material);
+/// Poisson's ratios that stand for the exact one (0.333 for 1/3) become that.
+/// @param root of a case's values
+void complete_materials(Teuchos::ParameterList& root);
+
+/// Whether the dilatation carries in any material what bonds alone cannot: for other Poisson's ratios than theirs.
+bool has_dilatation(const input::Values& root);
 
 }  // namespace perimorph::cases

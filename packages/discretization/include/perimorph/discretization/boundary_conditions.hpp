@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Tpetra_Vector_fwd.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,14 @@ struct SurfaceTraction {
   Ramp<base::Point<dim>> value;
 };
 
+/// Weight of what fills the body: a force per volume of density times acceleration.
+template <int dim>
+struct SelfWeight {
+  Ramp<base::Point<dim>> acceleration = {base::Point<dim>::Zero(), base::Point<dim>::Zero()};  ///< [length / time^2]
+  std::map<std::string, double> densities = {};  ///< by block, [mass / volume]
+  double other_density = 0.;                     ///< of all other blocks
+};
+
 /// Prescribed displacements by node of the reference mesh: every node of the topology that stands on it obeys them.
 template <int dim>
 class Dirichlet {
@@ -70,8 +79,10 @@ template <int dim>
 class Loads {
  public:
   /// @param body_force per volume, the same everywhere, (dim), [force / volume]
-  Loads(std::vector<SurfaceTraction<dim>> tractions, Ramp<base::Point<dim>> body_force)
-      : tractions_(std::move(tractions)), body_force_(body_force) {}
+  /// @param body_force per volume, [force / length^dim]
+  Loads(std::vector<SurfaceTraction<dim>> tractions, Ramp<base::Point<dim>> body_force,
+        SelfWeight<dim> self_weight = {})
+      : tractions_(std::move(tractions)), body_force_(body_force), self_weight_(std::move(self_weight)) {}
 
   /// Force on each owned degree of freedom, (n_owned_nodes * dim), [force]. Local.
   /// @param load_factor [-]
@@ -85,6 +96,7 @@ class Loads {
  private:
   std::vector<SurfaceTraction<dim>> tractions_;
   Ramp<base::Point<dim>> body_force_;
+  SelfWeight<dim> self_weight_;
 
   template <class Value>
   std::vector<double> integrate(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,

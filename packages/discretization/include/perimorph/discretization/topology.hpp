@@ -16,7 +16,7 @@ template <int dim>
 struct TopologyOptions {
   std::vector<morphing::Zone<dim>> seeds;
   std::vector<mesh::CrackFacet<dim>> pre_cracks;
-  materials::Micromodulus micromodulus;
+  materials::BondMaterials materials;
   morphing::BlendingFunction blending_function;
   DiscontinuousElements discontinuous;
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o of zones around flag points, [length]

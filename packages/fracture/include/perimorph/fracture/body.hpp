@@ -82,6 +82,7 @@ class Body {
   const operators::CoupledSystem<dim>& system() const { return system_; }
   operators::CoupledModel<dim> model() const { return system_.model(); }
   const mesh::Mesh<dim>& mesh() const { return topology_.mesh(); }
+  const bonds::CriticalStretches& critical_stretches() const { return critical_stretches_; }
   const Counts& counts() const { return state_.counts; }
   double load_factor() const { return state_.load_factor; }
   const std::vector<std::string>& solver_fallbacks() const { return equilibrium_.linear_solver().fallbacks(); }
@@ -98,6 +99,7 @@ class Body {
   base::Profile& profile_;
 
   discretization::State<dim> state_;
+  bonds::CriticalStretches critical_stretches_;
   discretization::Topology<dim> topology_;
   discretization::Dirichlet<dim> dirichlet_;
   operators::CoupledSystem<dim> system_;

@@ -1,13 +1,14 @@
 #pragma once
 
+#include "perimorph/bonds/critical_stretches.hpp"
 #include "perimorph/operators/coupled_model.hpp"
 
 namespace perimorph::fracture {
 
 /// Which bonds break: those whose stretch reached the critical one [WHL19, eq. 6, 7], or the worst of them.
 struct BreakingRule {
-  double critical_stretch;  ///< infinite if nothing breaks [-]
-  double fraction = 1.;     ///< share of the overstretched bonds that break at once [-]
+  bonds::CriticalStretches critical;  ///< infinite where nothing breaks [-]
+  double fraction = 1.;               ///< share of the overstretched bonds that break at once [-]
 };
 
 /// The bonds that break now. Collective.

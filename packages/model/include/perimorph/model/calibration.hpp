@@ -26,7 +26,7 @@ double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const P
 /// it has not been measured for all policies. Local.
 bool is_calibrated_to_mesh(Calibration calibration, int dimension, int points_per_direction);
 
-/// If the problem is to be calibrated to the mesh, divides the critical stretch by the lattice's resistance, so that a
+/// If the problem is to be calibrated to the mesh, divides critical stretches by the lattice's resistance, so that a
 /// crack runs at K = sqrt(E G_c); where the critical stretch is given, changes the fracture energy accordingly. Returns
 /// whether it did. Local.
 /// @param element_size where cracks start, [length]

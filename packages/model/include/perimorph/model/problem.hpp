@@ -1,11 +1,13 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "perimorph/base/parallel.hpp"
+#include "perimorph/bonds/critical_stretches.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
-#include "perimorph/materials/micromodulus.hpp"
+#include "perimorph/materials/material.hpp"
 #include "perimorph/mesh/mesh.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
@@ -26,11 +28,7 @@ enum class Calibration { analytic, mesh_consistent };
 /// What is to be computed, in the terms of the packages that compute it.
 template <int dim>
 struct Problem {
-  base::Stiffness<dim> e0;    ///< [stress]
-  double dilatational_ratio;  ///< kappa / mu of E0 (materials::dilatational_ratio), [-]; 0: bonds alone carry
-  materials::Micromodulus micromodulus;
-  double critical_stretch;  ///< infinite if nothing is to break [-]
-  double fracture_energy;   ///< G_c that belongs to it, [energy / area]
+  std::vector<materials::Material<dim>> materials;  ///< all with one horizon; the first fills what no other does
   std::vector<morphing::Zone<dim>> seeds;
   std::vector<mesh::CrackFacet<dim>> pre_cracks;
   std::vector<discretization::PrescribedComponent> displacements;
@@ -38,10 +36,22 @@ struct Problem {
   bool is_proportional;  ///< all loads grow with the increment from zero
   std::vector<AutomaticSeed> automatic_seeds = {};
   Calibration calibration = Calibration::analytic;
-  bool is_stretch_given = false;  ///< and the fracture energy follows from it; otherwise the other way round
+  std::map<std::string, int> material_of_block = {};  ///< place in the list, by the name of a block of the mesh
+  std::vector<materials::Interface> interfaces = {};  ///< between any two of the materials
 
   bool has_zones() const { return !seeds.empty() || !automatic_seeds.empty(); }
+  double horizon() const { return materials[0].micromodulus.horizon; }  ///< [length]
+  /// Whether anything can break.
+  bool breaks() const;
 };
+
+/// The place in the problem's list of each local element's material, (n_elements). Local.
+template <int dim>
+std::vector<int> materials_of_elements(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
+
+/// Of the bonds of a mesh, by the materials at their ends. Local.
+template <int dim>
+bonds::CriticalStretches critical_stretches(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
 
 /// Each rank's part of the mesh, with a halo as the problem needs it. Collective.
 /// @param whole the mesh, on rank 0

@@ -46,7 +46,7 @@ class BondForces : public LinearTerm<dim> {
   std::vector<Packet> packets_;
   std::vector<double> positions_;  ///< per packet: (dim, 4)
   std::vector<double> alpha_;      ///< per packet: (4), halved
-  std::vector<double> weights_;    ///< per packet: (4), times sqrt(tau0); on the fly only
+  std::vector<double> weights_;    ///< per packet: (4), times sqrt(tau0) of its material; on the fly only
   std::vector<int> first_packet_;  ///< per element, -1 without bonds
 
   // Blocks of bonds, from each packet to packets that come with it in a pair.

@@ -16,7 +16,7 @@ struct CoupledModel {
   const MorphedStiffness<dim>& elasticity;
   const discretization::DofMap<dim>& dofs;
 
-  bool has_dilatation() const { return elasticity.dilatation_factor() != 0.; }
+  bool has_dilatation() const { return elasticity.has_dilatation(); }
 
   /// Stiffness of an intact bond's spring, c0 (alpha(x) + alpha(p)) / 2 w_x w_p, [force / length^3]
   /// [WHL19, eq. 15, 21].

@@ -20,9 +20,9 @@ class Dilatation {
   /// Of points without bonds. Collective.
   /// @param ids of the points over all ranks, (n_points), those of this rank first
   /// @param n_owned how many are of this rank; it has all of their bonds
-  /// @param factor dim kappa / (2 (dim + 2) mu), [-]
+  /// @param factors dim kappa / (2 (dim + 2) mu) of their materials, (n_points), [-]
   Dilatation(const Teuchos::RCP<const base::Comm>& comm, const std::vector<base::GlobalId>& ids, std::size_t n_owned,
-             double factor);
+             std::vector<double> factors);
 
   /// A bond that a point has, or has no longer. @param weight c |xi|^4, [force length]
   void add(std::size_t point, double weight);
@@ -34,7 +34,7 @@ class Dilatation {
   std::size_t bytes() const;  ///< of memory
 
  private:
-  double factor_;
+  std::vector<double> factors_;
   std::size_t n_owned_;
   std::vector<double> weighted_volumes_;         ///< M, [force length]
   std::vector<int> n_bonds_;                     ///< that make it up: of none it is zero, whatever rounding has left

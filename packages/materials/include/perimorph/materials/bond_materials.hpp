@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "perimorph/base/errors.hpp"
+#include "perimorph/materials/micromodulus.hpp"
+
+namespace perimorph::materials {
+
+/// The harmonic mean of two stiffnesses >= 0: that of a spring of two halves. Zero if one is.
+template <class Number>
+Number harmonic_mean(const Number& one, const Number& other) {
+  return 2. / (1. / one + 1. / other);
+}
+
+/// The materials of elements as bonds see them: their micromoduli. Between two materials a bond has the harmonic mean of
+/// both (DECISIONS.md, 37).
+class BondMaterials {
+ public:
+  /// One material everywhere.
+  BondMaterials(const Micromodulus& only) : micromoduli_{only} {}  // NOLINT(google-explicit-constructor): mostly so
+
+  /// @param micromoduli of the materials, all with one horizon
+  /// @param of_element place of each local element's material in them, (n_elements)
+  BondMaterials(std::vector<Micromodulus> micromoduli, std::vector<int> of_element);
+
+  /// The material of a local element, by its place.
+  int of(int element) const { return of_element_.empty() ? 0 : of_element_[element]; }
+  bool is_single() const { return micromoduli_.size() == 1; }
+  const Micromodulus& micromodulus_of(int element) const { return micromoduli_[of(element)]; }
+  double horizon() const { return micromoduli_[0].horizon; }  ///< [length]
+
+  /// c0 of a bond between two elements' materials at a distance, [length].
+  double stiffness(int first_element, int second_element, double distance) const {
+    const Micromodulus& one = micromodulus_of(first_element);
+    if (of(first_element) == of(second_element)) return one(distance);
+    return harmonic_mean(one(distance), micromodulus_of(second_element)(distance));
+  }
+
+ private:
+  std::vector<Micromodulus> micromoduli_;
+  std::vector<int> of_element_;  ///< empty: all of the first
+};
+
+}  // namespace perimorph::materials

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "perimorph/materials/elasticity.hpp"
+#include "perimorph/materials/micromodulus.hpp"
+
+namespace perimorph::materials {
+
+/// When bonds break: at a critical stretch, which goes with a fracture energy. One is given, the other follows.
+struct Toughness {
+  double critical_stretch = std::numeric_limits<double>::infinity();  ///< [-]; infinite: nothing breaks
+  double fracture_energy = std::numeric_limits<double>::infinity();   ///< G_c, [energy / area]
+  bool is_stretch_given = false;
+
+  bool breaks() const { return !std::isinf(critical_stretch); }
+};
+
+/// An isotropic, linearly elastic, brittle material.
+template <int dim>
+struct Material {
+  std::string name;
+  base::Stiffness<dim> e0;        ///< elasticity tensor, [stress]
+  double dilatational_ratio = 0.;  ///< kappa / mu (materials::dilatational_ratio), [-]; 0: bonds alone carry
+  Micromodulus micromodulus;
+  Toughness toughness = {};
+  double density = 0.;  ///< [mass / volume]
+};
+
+/// A material that never breaks. Arguments as for elasticity_tensor() and calibrate().
+template <int dim>
+Material<dim> elastic_material(ElasticModel model, double youngs_modulus, double poissons_ratio,
+                               double characteristic_length, double horizon);
+
+/// Where two materials meet.
+struct Interface {
+  int first, second;  ///< materials, by their place in a list; first < second
+  Toughness toughness;
+};
+
+/// Fracture energy of a plane between two materials (or within one) across which every bond breaks at a critical
+/// stretch, [energy / area]: as fracture_energy(), with the bonds' mean micromodulus, and of the dilatation half of
+/// each.
+template <int dim>
+double fracture_energy(const Material<dim>& one, const Material<dim>& other, double critical_stretch);
+
+/// The inverse, [-]. @param energy G_c >= 0, [energy / area]
+template <int dim>
+double critical_stretch(const Material<dim>& one, const Material<dim>& other, double energy);
+
+/// The less tough of two materials; of two that never break neither.
+/// @return toughness of a perfect interface between them
+template <int dim>
+Toughness perfect_interface(const Material<dim>& one, const Material<dim>& other);
+
+}  // namespace perimorph::materials

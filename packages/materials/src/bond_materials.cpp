@@ -1,0 +1,19 @@
+#include "perimorph/materials/bond_materials.hpp"
+
+#include <algorithm>
+
+namespace perimorph::materials {
+
+BondMaterials::BondMaterials(std::vector<Micromodulus> micromoduli, std::vector<int> of_element)
+    : micromoduli_(std::move(micromoduli)), of_element_(std::move(of_element)) {
+  PERIMORPH_ASSERT(!micromoduli_.empty(), "no material for {} elements", of_element_.size());
+  const int n = static_cast<int>(micromoduli_.size());
+  for (const auto& one : micromoduli_) {
+    PERIMORPH_ASSERT(one.horizon == horizon(), "horizons {} and {}", one.horizon, horizon());
+  }
+  PERIMORPH_ASSERT(std::all_of(of_element_.begin(), of_element_.end(), [&](int m) { return m >= 0 && m < n; }),
+                   "a material beyond {}", n);
+  if (n == 1) of_element_.clear();
+}
+
+}  // namespace perimorph::materials

@@ -1,0 +1,64 @@
+#include "perimorph/materials/material.hpp"
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include "perimorph/materials/bond_materials.hpp"
+
+namespace perimorph::materials {
+
+namespace {
+
+template <int dim>
+double energy_of_bonds(const Micromodulus& one, const Micromodulus& other) {
+  const auto at = [&](double r) { return harmonic_mean(one(r), other(r)) * std::pow(r, dim + 4); };
+  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(at, 0., one.horizon) *
+         (dim == 2 ? 1. : 1.57079632679489662);
+}
+
+template <int dim>
+double energy_of_dilatation(const Material<dim>& material) {
+  const double with = fracture_energy<dim>(material.micromodulus, 1., material.dilatational_ratio);
+  return with - fracture_energy<dim>(material.micromodulus, 1.);
+}
+
+}  // namespace
+
+template <int dim>
+Material<dim> elastic_material(ElasticModel model, double youngs_modulus, double poissons_ratio,
+                               double characteristic_length, double horizon) {
+  return {"", elasticity_tensor<dim>(model, youngs_modulus, poissons_ratio), dilatational_ratio(model, poissons_ratio),
+          calibrate<dim>(model, youngs_modulus, poissons_ratio, characteristic_length, horizon)};
+}
+
+template <int dim>
+double fracture_energy(const Material<dim>& one, const Material<dim>& other, double critical_stretch) {
+  PERIMORPH_ASSERT(critical_stretch >= 0., "a critical stretch of {}", critical_stretch);
+  const double of_dilatation = 0.5 * (energy_of_dilatation(one) + energy_of_dilatation(other));
+  return critical_stretch * critical_stretch *
+         (energy_of_bonds<dim>(one.micromodulus, other.micromodulus) + of_dilatation);
+}
+
+template <int dim>
+double critical_stretch(const Material<dim>& one, const Material<dim>& other, double energy) {
+  PERIMORPH_ASSERT(energy >= 0., "a fracture energy of {}", energy);
+  return std::sqrt(energy / fracture_energy(one, other, 1.));
+}
+
+template <int dim>
+Toughness perfect_interface(const Material<dim>& one, const Material<dim>& other) {
+  Toughness toughness = one.toughness.fracture_energy <= other.toughness.fracture_energy ? one.toughness
+                                                                                        : other.toughness;
+  if (toughness.breaks()) toughness.critical_stretch = critical_stretch(one, other, toughness.fracture_energy);
+  return toughness;
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                    \
+  template Material<dim> elastic_material(ElasticModel, double, double, double, double);              \
+  template double fracture_energy(const Material<dim>&, const Material<dim>&, double);                \
+  template double critical_stretch(const Material<dim>&, const Material<dim>&, double);               \
+  template Toughness perfect_interface(const Material<dim>&, const Material<dim>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
+
+}  // namespace perimorph::materials
