@@ -68,9 +68,7 @@ struct BondedBody {
 
   BondList list() const {
     BondList all;
-    for_each_bond([&](int p, std::size_t b) {
-      all.emplace(global_ends(p, b), bonds.stiffness(bonds.bond(p, b)));
-    });
+    for_each_bond([&](int p, std::size_t b) { all.emplace(global_ends(p, b), bonds.stiffness(bonds.bond(p, b))); });
     return all;
   }
 };
