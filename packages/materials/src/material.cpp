@@ -46,16 +46,16 @@ double critical_stretch(const Material<dim>& one, const Material<dim>& other, do
 
 template <int dim>
 Toughness perfect_interface(const Material<dim>& one, const Material<dim>& other) {
-  Toughness toughness = one.toughness.fracture_energy <= other.toughness.fracture_energy ? one.toughness
-                                                                                        : other.toughness;
+  Toughness toughness =
+      one.toughness.fracture_energy <= other.toughness.fracture_energy ? one.toughness : other.toughness;
   if (toughness.breaks()) toughness.critical_stretch = critical_stretch(one, other, toughness.fracture_energy);
   return toughness;
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                    \
-  template Material<dim> elastic_material(ElasticModel, double, double, double, double);              \
-  template double fracture_energy(const Material<dim>&, const Material<dim>&, double);                \
-  template double critical_stretch(const Material<dim>&, const Material<dim>&, double);               \
+#define PERIMORPH_INSTANTIATE(dim)                                                       \
+  template Material<dim> elastic_material(ElasticModel, double, double, double, double); \
+  template double fracture_energy(const Material<dim>&, const Material<dim>&, double);   \
+  template double critical_stretch(const Material<dim>&, const Material<dim>&, double);  \
   template Toughness perfect_interface(const Material<dim>&, const Material<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -11,7 +11,7 @@ namespace perimorph::operators {
 
 Dilatation::Dilatation(const Teuchos::RCP<const base::Comm>& comm, const std::vector<base::GlobalId>& ids,
                        std::size_t n_owned, std::vector<double> factors)
-        : factors_(std::move(factors)), n_owned_(n_owned), weighted_volumes_(ids.size(), 0.), n_bonds_(ids.size(), 0) {
+    : factors_(std::move(factors)), n_owned_(n_owned), weighted_volumes_(ids.size(), 0.), n_bonds_(ids.size(), 0) {
   PERIMORPH_ASSERT(n_owned <= ids.size() && factors_.size() == ids.size(), "{} of {} points are owned, {} factors",
                    n_owned, ids.size(), factors_.size());
   if (comm->getSize() == 1) return;

@@ -87,8 +87,7 @@ LocalForces<dim>::LocalForces(const CoupledModel<dim>& model)
 }
 
 template <int dim>
-typename LocalForces<dim>::Group& LocalForces<dim>::group(int n_corners, int n_points,
-                                                            const base::Stiffness<dim>* e0) {
+typename LocalForces<dim>::Group& LocalForces<dim>::group(int n_corners, int n_points, const base::Stiffness<dim>* e0) {
   for (auto& g : groups_) {
     if (g.n_corners == n_corners && g.n_points == n_points && g.e0 == e0) return g;
   }

@@ -50,9 +50,8 @@ template <int dim>
 bool MorphedStiffness<dim>::sees_another_material(int element, const bonds::BondFamilies<dim>& bonds) const {
   if (of_element_.empty()) return false;
   const auto& pairs = bonds.pairs_of(element);
-  return std::any_of(pairs.begin(), pairs.end(), [&](int p) {
-    return material_of(bonds.pair(p).first) != material_of(bonds.pair(p).second);
-  });
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [&](int p) { return material_of(bonds.pair(p).first) != material_of(bonds.pair(p).second); });
 }
 
 template <int dim>

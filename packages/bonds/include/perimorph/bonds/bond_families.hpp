@@ -6,8 +6,8 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/bonds/bond.hpp"
 #include "perimorph/bonds/bond_change.hpp"
-#include "perimorph/bonds/visibility.hpp"
 #include "perimorph/bonds/critical_stretches.hpp"
+#include "perimorph/bonds/visibility.hpp"
 #include "perimorph/materials/bond_materials.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
 

@@ -13,8 +13,8 @@ Number harmonic_mean(const Number& one, const Number& other) {
   return 2. / (1. / one + 1. / other);
 }
 
-/// The materials of elements as bonds see them: their micromoduli. Between two materials a bond has the harmonic mean of
-/// both (DECISIONS.md, 37).
+/// The materials of elements as bonds see them: their micromoduli. Between two materials a bond has the harmonic mean
+/// of both (DECISIONS.md, 37).
 class BondMaterials {
  public:
   /// One material everywhere.

@@ -23,7 +23,7 @@ struct Toughness {
 template <int dim>
 struct Material {
   std::string name;
-  base::Stiffness<dim> e0;        ///< elasticity tensor, [stress]
+  base::Stiffness<dim> e0;         ///< elasticity tensor, [stress]
   double dilatational_ratio = 0.;  ///< kappa / mu (materials::dilatational_ratio), [-]; 0: bonds alone carry
   Micromodulus micromodulus;
   Toughness toughness = {};

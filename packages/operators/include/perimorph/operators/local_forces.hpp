@@ -21,14 +21,14 @@ class LocalForces : public LinearTerm<dim> {
   std::size_t bytes() const override;
 
  private:
-  /// Elements of one kind: of one E0 everywhere, or each point with an E of its own. Four elements follow each other lane
-  /// by lane; an incomplete four is filled up with elements of no stiffness.
+  /// Elements of one kind: of one E0 everywhere, or each point with an E of its own. Four elements follow each other
+  /// lane by lane; an incomplete four is filled up with elements of no stiffness.
   struct Group {
     int n_corners, n_points;
     const base::Stiffness<dim>* e0;  ///< null: each point has its own
-    std::vector<int> nodes;         ///< per four elements: (n_corners, 4)
-    std::vector<double> gradients;  ///< per four elements: (n_points, n_corners, dim, 4), [length^(dim/2 - 1)]
-    std::vector<double> stiffness;  ///< per four elements: (n_points, n_voigt (n_voigt + 1) / 2, 4), [stress]
+    std::vector<int> nodes;          ///< per four elements: (n_corners, 4)
+    std::vector<double> gradients;   ///< per four elements: (n_points, n_corners, dim, 4), [length^(dim/2 - 1)]
+    std::vector<double> stiffness;   ///< per four elements: (n_points, n_voigt (n_voigt + 1) / 2, 4), [stress]
   };
   CoupledModel<dim> model_;
   std::vector<Group> groups_;

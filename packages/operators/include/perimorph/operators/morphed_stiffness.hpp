@@ -14,7 +14,7 @@ enum class PeridynamicStiffness { dropped, kept };
 /// What the classical part of the model needs to know of a material.
 template <int dim>
 struct Elasticity {
-  base::Stiffness<dim> e0;         ///< E0, [stress]
+  base::Stiffness<dim> e0;        ///< E0, [stress]
   double dilatation_factor = 0.;  ///< g M of its points: dim kappa / (2 (dim + 2) mu), [-]; 0: bonds alone carry
 };
 
