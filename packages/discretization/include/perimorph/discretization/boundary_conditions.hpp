@@ -79,7 +79,7 @@ template <int dim>
 class Loads {
  public:
   /// @param body_force per volume, the same everywhere, (dim), [force / volume]
-  /// @param body_force per volume, [force / length^dim]
+  /// @param self_weight of what fills the body
   Loads(std::vector<SurfaceTraction<dim>> tractions, Ramp<base::Point<dim>> body_force,
         SelfWeight<dim> self_weight = {})
       : tractions_(std::move(tractions)), body_force_(body_force), self_weight_(std::move(self_weight)) {}
