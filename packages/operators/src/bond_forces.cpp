@@ -40,7 +40,7 @@ RowPair squared(const std::array<RowPair, dim>& xi) {
 /// c0 over the root of the product of both tau0.
 RowPair mean_decay(const RowPair& squared_lengths, const materials::Micromodulus& one,
                    const materials::Micromodulus& other) {
-  const RowPair decay = materials::decay(squared_lengths, one.characteristic_length);
+  RowPair decay = materials::decay(squared_lengths, one.characteristic_length);
   if (&one == &other) return decay;
   const RowPair of_one = one.tau0 * decay;
   const RowPair of_other = other.tau0 * materials::decay(squared_lengths, other.characteristic_length);

@@ -14,7 +14,7 @@ struct Solver {
   double largest_imbalance = 1.25;            ///< of the ranks' work, before the mesh is partitioned again [-]
 };
 
-void declare(const input::Section& section, Solver& solver, model::NumericalOptions& numerical);
+void declare(const input::Section& decisive, Solver& solver, model::NumericalOptions& numerical);
 
 /// @param has_dilatation as the material says
 void check_solver(const input::Values& section, bool has_dilatation);
