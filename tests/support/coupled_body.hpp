@@ -80,7 +80,7 @@ struct CoupledBody {
   CoupledBody(const CoupledBody&) = delete;
   CoupledBody& operator=(const CoupledBody&) = delete;
 
-  /// Which of two materials each local element has; empty if all are alike.
+  /// Which of two materials each local element has.
   std::vector<int> of_elements(const Setup& setup) const {
     std::vector<int> places;
     for (const auto id : mesh.element_ids) places.push_back(id % 2 != 0 && setup.stiffer != 1. ? 1 : 0);

@@ -14,6 +14,11 @@ namespace perimorph::application {
 
 using base::GlobalId;
 
+template <int dim>
+std::string whose(const model::Problem<dim>& problem, std::size_t material) {
+  return problem.materials.size() == 1 ? "" : problem.materials[material].name + ": ";
+}
+
 namespace {
 
 /// The largest of the reactions that the run will record, if loads grow by a factor.
@@ -33,11 +38,10 @@ std::string largest_reaction(const base::Comm& comm, const cases::Case& input, c
 template <int dim>
 void describe_strengths(const cases::Case& input, const model::Problem<dim>& problem, const base::Log& log) {
   for (std::size_t m = 0; m < problem.materials.size(); ++m) {
-    const auto& [name, toughness] = std::tie(problem.materials[m].name, problem.materials[m].toughness);
+    const auto& toughness = problem.materials[m].toughness;
     if (!toughness.breaks()) continue;
     log->info("strength         {}E s_crit = {:.4g}: about the stress that breaks the material where there is no crack",
-              input.materials.empty() ? "" : name + ": ",
-              cases::solids_of(input)[m].youngs_modulus * toughness.critical_stretch);
+              whose(problem, m), cases::solids_of(input)[m].youngs_modulus * toughness.critical_stretch);
   }
 }
 
@@ -121,6 +125,7 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                            \
+  template std::string whose(const model::Problem<dim>&, std::size_t);                                        \
   template void warn_of_seeds_everywhere(const base::Comm&, const mesh::Mesh<dim>&, const cases::Case&,       \
                                          const model::Problem<dim>&, const base::Log&);                       \
   template void check_that_bonds_can_break(const base::Comm&, const cases::Case&, const model::Problem<dim>&, \

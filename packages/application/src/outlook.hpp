@@ -11,6 +11,11 @@
 
 namespace perimorph::application {
 
+/// The name of one of several materials, to begin a line with; nothing if there is one only. Local.
+/// @param material by its place in the problem's list
+template <int dim>
+std::string whose(const model::Problem<dim>& problem, std::size_t material);
+
 /// What the user should know before believing results; what would be chosen better, which quiet runs do not say. Local.
 void warn(const base::Log& log, const cases::Case& input, const std::vector<std::string>& lines);
 void advise(const base::Log& log, const cases::Case& input, const std::vector<std::string>& lines,

@@ -27,24 +27,20 @@ using model::Problem;
 
 namespace {
 
-/// The name of one of several materials.
-template <int dim>
-std::string prefix(const Problem<dim>& problem, const std::string& name) {
-  return problem.materials.size() == 1 ? "" : name + ": ";
-}
-
 template <int dim>
 void describe_fracture(const Problem<dim>& problem, bool is_calibrated, const base::Log& log) {
-  const auto describe_one = [&](const std::string& whose, const materials::Toughness& toughness) {
+  const auto describe_one = [&](const std::string& name, const materials::Toughness& toughness) {
     if (!toughness.breaks()) {
-      log->info("fracture         {}none: neither critical stretch nor fracture energy is given", whose);
+      log->info("fracture         {}none: neither critical stretch nor fracture energy is given", name);
       return;
     }
-    log->info("fracture         {}critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}", whose,
+    log->info("fracture         {}critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}", name,
               toughness.critical_stretch, is_calibrated ? "calibrated to the mesh," : "by the integral,",
               toughness.fracture_energy);
   };
-  for (const auto& material : problem.materials) describe_one(prefix(problem, material.name), material.toughness);
+  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+    describe_one(whose(problem, m), problem.materials[m].toughness);
+  }
   for (const auto& [first, second, toughness] : problem.interfaces) {
     describe_one(fmt::format("between {} and {}: ", problem.materials[first].name, problem.materials[second].name),
                  toughness);
@@ -57,9 +53,10 @@ void describe(const base::Comm& comm, const cases::Case& input, const Problem<di
   log->info("{}", input.title.empty() ? input.name : input.title);
   log->info("mesh             {}: {} elements, {} nodes on {}", input.mesh.file, mesh.n_global_elements,
             mesh.n_global_nodes, base::counted(static_cast<std::size_t>(comm.getSize()), "rank"));
-  for (const auto& material : problem.materials) {
-    log->info("micromodulus     {}tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", prefix(problem, material.name),
-              material.micromodulus.tau0, material.micromodulus.characteristic_length, material.micromodulus.horizon);
+  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+    const auto& [tau0, length, horizon] = problem.materials[m].micromodulus;
+    log->info("micromodulus     {}tau0 = {:.6g}, l = {:.6g}, horizon = {:.6g}", whose(problem, m), tau0, length,
+              horizon);
   }
 }
 

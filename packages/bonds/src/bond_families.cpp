@@ -39,12 +39,6 @@ void BondFamilies<dim>::check_arguments() const {
                    mesh_.n_elements());
   PERIMORPH_ASSERT(points_.first(mesh_.n_elements()) == points_.size(), "{} points, {} of them in {} elements",
                    points_.size(), points_.first(mesh_.n_elements()), mesh_.n_elements());
-  for (int e = 0; e < mesh_.n_elements(); ++e) {
-    const auto& [tau0, length, horizon] = materials_.micromodulus_of(e);
-    PERIMORPH_ASSERT(std::isfinite(tau0) && tau0 > 0., "tau0 is {}", tau0);
-    PERIMORPH_ASSERT(std::isfinite(length) && length > 0., "the characteristic length is {}", length);
-    PERIMORPH_ASSERT(std::isfinite(horizon) && horizon > 0., "the horizon is {}", horizon);
-  }
 }
 
 template <int dim>
@@ -101,15 +95,12 @@ void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibi
 
 template <int dim>
 double BondFamilies<dim>::stiffness_on_the_fly(const Bond<dim>& bond) const {
-  const auto squared = materials::EightValues::Constant(bond.xi.squaredNorm());
-  const auto c0 = [&](int element) {
-    const materials::Micromodulus& own = materials_.micromodulus_of(element);
-    return own.tau0 * materials::decay(squared, own.characteristic_length)[0];
+  const materials::EightValues squared = materials::EightValues::Constant(bond.xi.squaredNorm());
+  const auto c0 = [&](const materials::Micromodulus& of) {
+    return of.tau0 * materials::decay(squared, of.characteristic_length)[0];
   };
-  const bool is_of_one = materials_.of(bond.first_element) == materials_.of(bond.second_element);
-  const double of_first = c0(bond.first_element);
-  return (is_of_one ? of_first : materials::harmonic_mean(of_first, c0(bond.second_element))) *
-         points_.weight(bond.first_point) * points_.weight(bond.second_point);
+  return materials_.mean_of(bond.first_element, bond.second_element, c0) * points_.weight(bond.first_point) *
+         points_.weight(bond.second_point);
 }
 
 template <int dim>
@@ -175,13 +166,14 @@ typename BondFamilies<dim>::Extremes BondFamilies<dim>::neighbourhood_extremes(
 template <int dim>
 template <class Visit>
 void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& displacements,
-                                               const CriticalStretches& critical_stretches,
+                                               const CriticalStretches& critical_stretches, double ratio,
                                                const std::vector<morphing::ElementClass>& classes, Visit visit) const {
   PERIMORPH_ASSERT(static_cast<int>(displacements.size()) == points_.size(), "{} displacements of {} points",
                    displacements.size(), points_.size());
   PERIMORPH_ASSERT(static_cast<int>(classes.size()) == mesh_.n_elements(), "{} classes of {} elements", classes.size(),
                    mesh_.n_elements());
-  PERIMORPH_ASSERT(critical_stretches.smallest() >= 0., "a critical stretch of {}", critical_stretches.smallest());
+  PERIMORPH_ASSERT(critical_stretches.smallest() >= 0. && ratio >= 0., "{} times a critical stretch of {}", ratio,
+                   critical_stretches.smallest());
   for (int p = 0; p < n_pairs(); ++p) {
     const auto [first, second] = pairs_[p];
     if (first == second || classes[first] != morphing::ElementClass::pd ||
@@ -190,7 +182,7 @@ void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& di
     }
     // s = |xi + eta| / |xi| - 1 >= s_crit, without the roots   [WHL19, eq. 6, 7]
     const double critical_stretch = critical_stretches(first, second);
-    const double critical = (1. + critical_stretch) * (1. + critical_stretch);
+    const double critical = (1. + ratio * critical_stretch) * (1. + ratio * critical_stretch);
     for_each_bond(p, [&](const Bond<dim>& bond) {
       if (bond.is_broken) return;
       const Point<dim> eta = displacements[bond.second_point] - displacements[bond.first_point];
@@ -204,9 +196,10 @@ void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& di
 template <int dim>
 std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim>>& displacements,
                                                      const CriticalStretches& critical,
-                                                     const std::vector<morphing::ElementClass>& classes) const {
+                                                     const std::vector<morphing::ElementClass>& classes,
+                                                     double ratio) const {
   std::vector<double> ratios;
-  for_each_overstretched(displacements, critical, classes,
+  for_each_overstretched(displacements, critical, ratio, classes,
                          [&](const Bond<dim>& bond, double squared_ratio, double critical_stretch) {
                            if (bond.first_element >= mesh_.n_owned_elements) return;
                            ratios.push_back((std::sqrt(squared_ratio) - 1.) / critical_stretch);
@@ -217,9 +210,10 @@ std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim
 template <int dim>
 std::vector<BondId> BondFamilies<dim>::overstretched(const std::vector<Point<dim>>& displacements,
                                                      const CriticalStretches& critical,
-                                                     const std::vector<morphing::ElementClass>& classes) const {
+                                                     const std::vector<morphing::ElementClass>& classes,
+                                                     double ratio) const {
   std::vector<BondId> found;
-  for_each_overstretched(displacements, critical, classes,
+  for_each_overstretched(displacements, critical, ratio, classes,
                          [&](const Bond<dim>& bond, double, double) { found.push_back(bond.id); });
   return found;
 }

@@ -35,7 +35,8 @@ class Advice {
         size_(element_size) {}
 
   std::vector<std::string> all() {
-    if (input_.morphing.seeds.empty()) return {};
+    check_density();
+    if (input_.morphing.seeds.empty()) return std::move(lines_);
     check_length();
     check_horizon();
     check_cut_off();
@@ -49,6 +50,17 @@ class Advice {
   template <class... Values>
   void add(const std::string& path, fmt::format_string<Values...> what, Values&&... values) {
     lines_.push_back(path + ": " + fmt::format(what, std::forward<Values>(values)...));
+  }
+
+  void check_density() {
+    const auto& conditions = input_.boundary_conditions;
+    const auto is_some = [](double value) { return value != 0.; };
+    for (const auto* weight : {&conditions.self_weight_rate, &conditions.self_weight_constant}) {
+      if (std::any_of(weight->begin(), weight->end(), is_some)) return;
+    }
+    const auto solids = solids_of(input_);
+    if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.density > 0.; })) return;
+    add("/Boundary Conditions/Self-Weight", "is zero; without it densities have no effect");
   }
 
   void check_length() {

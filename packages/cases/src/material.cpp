@@ -7,6 +7,7 @@
 #include <set>
 
 #include "choices.hpp"
+#include "perimorph/cases/peridynamics.hpp"
 
 namespace perimorph::cases {
 
@@ -21,8 +22,6 @@ constexpr std::array<Choice<ElasticModel>, 3> elastic_models{
      {"Three-Dimensional", ElasticModel::three_dimensional, 3}}};
 constexpr std::array<Choice<Calibration>, 2> calibrations{
     {{"Analytic", Calibration::analytic}, {"Mesh-Consistent", Calibration::mesh_consistent}}};
-
-constexpr double longest_horizon = 100.;  // in characteristic lengths
 
 /// The ratio that bonds alone have, for one within 0.1 % of it; another as it is.
 double exact_ratio(ElasticModel model, double ratio) {

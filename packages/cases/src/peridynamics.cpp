@@ -37,15 +37,13 @@ void declare(const input::Section& section, Peridynamics& peridynamics, model::N
 }
 
 void check_peridynamics(const input::Values& section) {
-  constexpr double most =
-      100.;  // horizon in characteristic lengths: the longest bonds are then 1e-43 as stiff as short ones
   input::check_order(section, "Characteristic Length", "Horizon");
   const double *horizon = section.number("Horizon"), *length = section.number("Characteristic Length");
-  if (horizon == nullptr || length == nullptr || *horizon <= most * *length) return;
+  if (horizon == nullptr || length == nullptr || *horizon <= longest_horizon * *length) return;
   section.mistake("Horizon",
                   fmt::format("found {:.6g}; allowed is up to {:.0f} times \"Characteristic Length\", which is "
                               "{:.6g} (twelve times are usual)",
-                              *horizon, most, *length));
+                              *horizon, longest_horizon, *length));
 }
 
 }  // namespace perimorph::cases

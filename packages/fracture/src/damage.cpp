@@ -41,7 +41,7 @@ bonds::BondChange bonds_that_break(const base::Comm& comm, const operators::Coup
   const auto& bonds = model.bonds;
   const double ratio = breaking_ratio(comm, bonds, at_points.displacement, classes, rule);
   bonds::BondChange change;
-  change.broken = bonds.overstretched(at_points.displacement, rule.critical.times(ratio), classes);
+  change.broken = bonds.overstretched(at_points.displacement, rule.critical, classes, ratio);
   change.energy = base::sum(comm, operators::bond_energy(model, change.broken, at_points));
   const auto is_counted_here = [&](bonds::BondId b) {
     return bonds.bond(b).first_element < model.mesh.n_owned_elements;

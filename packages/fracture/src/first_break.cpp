@@ -16,10 +16,10 @@ template <int dim>
 double largest_ratio(const base::Comm& comm, const Body<dim>& body, double factor, double threshold) {
   auto u = body.system().at_points().displacement;
   for (auto& one : u) one *= factor;
-  const auto ratios =
-      body.topology().bonds().overstretches(u, body.critical_stretches().times(threshold), body.topology().classes());
+  const auto& topology = body.topology();
+  const auto ratios = topology.bonds().overstretches(u, body.critical_stretches(), topology.classes(), threshold);
   const auto largest = std::max_element(ratios.begin(), ratios.end());
-  return base::max(comm, largest == ratios.end() ? 0. : threshold * *largest);
+  return base::max(comm, largest == ratios.end() ? 0. : *largest);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "perimorph/materials/bond_materials.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace perimorph::materials {
 
@@ -8,8 +9,10 @@ BondMaterials::BondMaterials(std::vector<Micromodulus> micromoduli, std::vector<
     : micromoduli_(std::move(micromoduli)), of_element_(std::move(of_element)) {
   PERIMORPH_ASSERT(!micromoduli_.empty(), "no material for {} elements", of_element_.size());
   const int n = static_cast<int>(micromoduli_.size());
-  for (const auto& one : micromoduli_) {
-    PERIMORPH_ASSERT(one.horizon == horizon(), "horizons {} and {}", one.horizon, horizon());
+  for (const auto& [tau0, length, reach] : micromoduli_) {
+    PERIMORPH_ASSERT(std::isfinite(tau0) && tau0 > 0., "tau0 is {}", tau0);
+    PERIMORPH_ASSERT(std::isfinite(length) && length > 0., "the characteristic length is {}", length);
+    PERIMORPH_ASSERT(std::isfinite(reach) && reach > 0. && reach == horizon(), "horizons {} and {}", reach, horizon());
   }
   PERIMORPH_ASSERT(std::all_of(of_element_.begin(), of_element_.end(), [&](int m) { return m >= 0 && m < n; }),
                    "a material beyond {}", n);

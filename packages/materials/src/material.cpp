@@ -1,5 +1,6 @@
 #include "perimorph/materials/material.hpp"
 
+#include <boost/math/constants/constants.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "perimorph/materials/bond_materials.hpp"
@@ -12,7 +13,7 @@ template <int dim>
 double energy_of_bonds(const Micromodulus& one, const Micromodulus& other) {
   const auto at = [&](double r) { return harmonic_mean(one(r), other(r)) * std::pow(r, dim + 4); };
   return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(at, 0., one.horizon) *
-         (dim == 2 ? 1. : 1.57079632679489662);
+         (dim == 2 ? 1. : boost::math::constants::half_pi<double>());
 }
 
 template <int dim>

@@ -146,7 +146,7 @@ void refuse_commands(const std::string& geo_file) {
     throw base::ComputationError(geo_file + ": a signal asked the run to stop while gmsh meshed it");
   }
   throw base::UserError(
-      fmt::format("{}: gmsh was still meshing it after {} min, and was ended: either it loops for ever, or it needs a "
+      fmt::format("{}: gmsh was still meshing it after {} min, and was ended: either it loops forever, or it needs a "
                   "higher /Mesh/Maximum Meshing Minutes",
                   geo_file, limits.minutes));
 }

@@ -292,7 +292,7 @@ void BondForces<dim>::gather(const double* u) const {
 template <int dim>
 template <bool on_the_fly, class Sum>
 void BondForces<dim>::pass_over_blocks(Sum& sum) const {
-  const auto& materials = model_.bonds.materials();
+  const auto& bond_materials = model_.bonds.materials();
   const float* stiffness = stiffness_.data();
   for (std::size_t a = 0; a < packets_.size(); ++a) {
     std::array<std::array<RowPair, dim>, n_lanes / 2> x_a, u_a;
@@ -305,7 +305,7 @@ void BondForces<dim>::pass_over_blocks(Sum& sum) const {
       alpha_a[rows] = first_ends(alpha_.data() + a * n_lanes + 2 * rows);
       if constexpr (on_the_fly) weights_a[rows] = first_ends(weights_.data() + a * n_lanes + 2 * rows);
     }
-    const materials::Micromodulus& own = materials.micromodulus_of(packets_[a].element);
+    const materials::Micromodulus& own = bond_materials.micromodulus_of(packets_[a].element);
     sum.start(a);
     for (std::size_t block = first_block_[a]; block < first_block_[a + 1]; ++block) {
       const std::size_t b = second_[block];
@@ -326,7 +326,7 @@ void BondForces<dim>::pass_over_blocks(Sum& sum) const {
         }
         RowPair k;
         if constexpr (on_the_fly) {
-          const materials::Micromodulus& other = materials.micromodulus_of(packets_[b].element);
+          const materials::Micromodulus& other = bond_materials.micromodulus_of(packets_[b].element);
           k = keep(mask, mean_decay(squared<dim>(xi), own, other)) *
               (twice(weights_.data() + b * n_lanes) * weights_a[rows]);
         } else {
@@ -356,10 +356,8 @@ void BondForces<dim>::dilate() const {
 }
 
 template <int dim>
-std::vector<double> BondForces<dim>::dilatational_stretch(base::ConstField u) const {
+std::vector<double> BondForces<dim>::dilatational_stretch() const {
   if (!dilatation_) return {};
-  gather(u.getRawPtr());
-  dilate();
   std::vector<double> at_points(model_.points.size(), 0.);
   for (int e = 0; e < model_.mesh.n_elements(); ++e) {
     if (first_packet_[e] < 0) continue;

@@ -129,8 +129,8 @@ void CoupledSystem<dim>::evaluate(base::ConstField u) {
   PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) == space_->n_local(),
                    "{} displacements for {} degrees of freedom", u.size(), space_->n_local());
   const auto timer = profile_.measure(Phase::residual);
-  at_points_ = {displacements_at_points(model(), u), bond_forces_->dilatational_stretch(u)};
   internal_ = sum_of_forces(terms_, u);
+  at_points_ = {displacements_at_points(model(), u), bond_forces_->dilatational_stretch()};
   loads_ = sum_of_forces(load_terms_, u);
   for (double& load : loads_) load = -load;
   has_forces_ = true;

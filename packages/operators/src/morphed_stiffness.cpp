@@ -88,6 +88,7 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
     base::Voigt<dim> t = base::Voigt<dim>::Zero();
     double weighted = 0.;
   };
+  const double factor = dilatation_factor(element);
   std::vector<Volume> volumes(n_points);
   for (const int p : bonds.pairs_of(element)) {
     bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
@@ -96,6 +97,7 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
       const base::Voigt<dim> scaled = (0.25 * (alpha_[bond.first_point] + alpha_[bond.second_point]) * stiffness) * v;
       const auto add_at = [&](int q) {
         reduced[q].noalias() += scaled * v.transpose();
+        if (factor == 0.) return;
         volumes[q].t += 2. * squared * scaled;
         volumes[q].weighted += stiffness * squared * squared;
       };
@@ -103,10 +105,9 @@ void MorphedStiffness<dim>::compute(int element, const elements::MaterialPoints<
       if (bond.second_element == element) add_at(bond.second_end);
     });
   }
-  const double factor = dilatation_factor(element);
   for (int q = 0; q < n_points; ++q) {
     const auto& [t, weighted] = volumes[q];
-    if (weighted > 0. && factor != 0.) reduced[q] += factor / weighted * t * t.transpose();
+    if (weighted > 0.) reduced[q] += factor / weighted * t * t.transpose();
     reduced[q] = e0(element) - reduced[q] / points.weight(points.first(element) + q);
     if (is_clipped) reduced[q] = positive_part<dim>(reduced[q]);
   }

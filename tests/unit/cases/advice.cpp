@@ -43,6 +43,16 @@ TEST(Advice, AVolumeThatHardlyChangesWantsASmoothRim) {
   EXPECT_THAT(advice(input, 1.), IsEmpty());
 }
 
+TEST(Advice, ADensityWithoutWeightHasNoEffect) {
+  Case input = good();
+  input.material.density = 2.4e-9;
+  EXPECT_THAT(advice(input, 1.), ElementsAre(StartsWith("/Boundary Conditions/Self-Weight: is zero")));
+  input.morphing.seeds.clear();
+  EXPECT_THAT(advice(input, 1.), ElementsAre(HasSubstr("densities have no effect")));
+  input.boundary_conditions.self_weight_constant = {0., -9810.};
+  EXPECT_THAT(advice(input, 1.), IsEmpty());
+}
+
 TEST(Advice, HasNothingToSayOfABodyWithoutZones) {
   Case input = good();
   input.morphing.seeds.clear();

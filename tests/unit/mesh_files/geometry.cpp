@@ -208,10 +208,9 @@ TEST(Geometry, OneThatDoesNotEndIsEndedAndNamed) {
       mesh_geometry(geo, msh, 2, {SideEffects::refused, 0.01});
       ADD_FAILURE() << "it ended";
     } catch (const base::UserError& error) {
-      EXPECT_EQ(error.what(),
-                geo +
-                    ": gmsh was still meshing it after 0.01 min, and was ended: either it loops for ever, "
-                    "or it needs a higher /Mesh/Maximum Meshing Minutes");
+      EXPECT_EQ(error.what(), geo +
+                                  ": gmsh was still meshing it after 0.01 min, and was ended: either it loops forever, "
+                                  "or it needs a higher /Mesh/Maximum Meshing Minutes");
     }
     EXPECT_FALSE(std::filesystem::exists(msh));
   }

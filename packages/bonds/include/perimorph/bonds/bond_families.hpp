@@ -118,15 +118,16 @@ class BondFamilies {
   /// both may break, ascending. Local: every rank that holds a bond decides alike.
   /// @param displacements at the points, (n_points), [length]; only those of elements with bonds are read
   /// @param classes by local element, (n_elements): those of PD may break
+  /// @param ratio of the critical stretches from which bonds count, >= 0, [-]
   std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements,
                                     const CriticalStretches& critical,
-                                    const std::vector<morphing::ElementClass>& classes) const;
+                                    const std::vector<morphing::ElementClass>& classes, double ratio = 1.) const;
 
   /// Their stretches over their critical ones, (n), [-]; those of which this rank owns the first element, so that each
   /// comes from one rank. Arguments as there. Local.
   std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements,
                                     const CriticalStretches& critical,
-                                    const std::vector<morphing::ElementClass>& classes) const;
+                                    const std::vector<morphing::ElementClass>& classes, double ratio = 1.) const;
 
   /// Marks bonds as broken: intact ones, between two different elements. Local.
   void take(const BondChange& change);
@@ -159,7 +160,8 @@ class BondFamilies {
   }
   double stiffness_on_the_fly(const Bond<dim>& bond) const;
   template <class Visit>
-  void for_each_overstretched(const std::vector<base::Point<dim>>& displacements, const CriticalStretches& critical,
+  void for_each_overstretched(const std::vector<base::Point<dim>>& displacements,
+                              const CriticalStretches& critical_stretches, double ratio,
                               const std::vector<morphing::ElementClass>& classes, Visit visit) const;
   void check_arguments() const;
   void add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles);

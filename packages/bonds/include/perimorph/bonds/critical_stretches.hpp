@@ -23,18 +23,11 @@ class CriticalStretches {
     PERIMORPH_ASSERT(static_cast<std::size_t>(n_) * n_ == by_pair_.size(), "{} stretches", by_pair_.size());
   }
 
-  /// Of bonds between two local elements.
+  /// Of bonds between two local elements, [-].
   double operator()(int first, int second) const {
     return of_element_.empty() ? by_pair_[0] : by_pair_[of_element_[first] * n_ + of_element_[second]];
   }
-  double smallest() const { return *std::min_element(by_pair_.begin(), by_pair_.end()); }
-
-  /// All of them times a factor >= 0.
-  CriticalStretches times(double factor) const {
-    CriticalStretches scaled = *this;
-    for (double& one : scaled.by_pair_) one *= factor;
-    return scaled;
-  }
+  double smallest() const { return *std::min_element(by_pair_.begin(), by_pair_.end()); }  ///< [-]
 
  private:
   int n_ = 1;

@@ -6,6 +6,9 @@
 
 namespace perimorph::cases {
 
+/// The longest horizon in characteristic lengths, [-]: the longest bonds are then 1e-43 as stiff as short ones.
+inline constexpr double longest_horizon = 100.;
+
 /// The nonlocal model. Lengths in the mesh's unit.
 struct Peridynamics {
   double horizon = 0., characteristic_length = 0.;  ///< [length]

@@ -18,7 +18,8 @@ Number harmonic_mean(const Number& one, const Number& other) {
 class BondMaterials {
  public:
   /// One material everywhere.
-  BondMaterials(const Micromodulus& only) : micromoduli_{only} {}  // NOLINT(google-explicit-constructor): mostly so
+  BondMaterials(const Micromodulus& only)  // NOLINT(google-explicit-constructor): mostly so
+      : BondMaterials(std::vector<Micromodulus>{only}, {}) {}
 
   /// @param micromoduli of the materials, all with one horizon
   /// @param of_element place of each local element's material in them, (n_elements)
@@ -30,11 +31,17 @@ class BondMaterials {
   const Micromodulus& micromodulus_of(int element) const { return micromoduli_[of(element)]; }
   double horizon() const { return micromoduli_[0].horizon; }  ///< [length]
 
-  /// c0 of a bond between two elements' materials at a distance, [length].
+  /// What c0(const Micromodulus&) gives for the materials of two local elements: of one, or the harmonic mean of both.
+  template <class C0>
+  double mean_of(int first_element, int second_element, C0 c0) const {
+    const double of_first = c0(micromodulus_of(first_element));
+    if (of(first_element) == of(second_element)) return of_first;
+    return harmonic_mean(of_first, c0(micromodulus_of(second_element)));
+  }
+
+  /// c0 of a bond between two local elements at a distance, [length].
   double stiffness(int first_element, int second_element, double distance) const {
-    const Micromodulus& one = micromodulus_of(first_element);
-    if (of(first_element) == of(second_element)) return one(distance);
-    return harmonic_mean(one(distance), micromodulus_of(second_element)(distance));
+    return mean_of(first_element, second_element, [=](const Micromodulus& c0) { return c0(distance); });
   }
 
  private:

@@ -10,7 +10,7 @@ enum class SideEffects { refused, allowed };
 /// What gmsh may do and take to mesh a geometry.
 struct MeshingLimits {
   SideEffects side_effects = SideEffects::refused;
-  double minutes = 60.;  ///< a geometry may loop for ever
+  double minutes = 60.;  ///< a geometry may loop forever
 };
 
 /// Whether a file is a geometry by its name, .geo. Local.

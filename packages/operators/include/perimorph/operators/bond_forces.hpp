@@ -22,9 +22,9 @@ class BondForces : public LinearTerm<dim> {
   /// Of the intact bonds. Collective with dilatation. The model is read again later and must outlive this.
   explicit BondForces(const CoupledModel<dim>& model);
 
-  /// p of a displacement at all points, (n_points), [-]; empty without dilatation. Collective.
-  /// @param u on all local degrees of freedom, [length]
-  std::vector<double> dilatational_stretch(base::ConstField u) const;
+  /// p of the displacement that the last product or force was of, at all points, (n_points), [-]; empty without
+  /// dilatation. Local.
+  std::vector<double> dilatational_stretch() const;
 
   void add_tangent_product(base::ConstField x, base::Field force) const override;
   void take(const bonds::BondChange& change) override;
