@@ -408,6 +408,32 @@ class Plausibility(Checked):
             self.assertIn("/Material/Fracture Energy: bonds break at a stretch of", run.stdout)
             self.assertIn(what, run.stdout)
 
+    SOFT = {"Material/Critical Stretch": None, "Material/Bond Law": "Bilinear", "Material/Tensile Strength": 15.0,
+            "Material/Fracture Energy": 2.0}
+
+    def test_bonds_that_soften_too_slowly_for_their_elements(self):
+        self.write_case(self.SOFT)
+        run = self.check()
+        self.assertIn("/Peridynamics/Characteristic Length: 0.2 is 0.20 of an element; of bonds that soften it is a length of the "
+                      "material", run.stdout)
+        self.assertIn("length           l = 0.2 is one of the material: keep it, and the horizon, on other meshes", run.stdout)
+        self.assertNotIn("a length of the material", self.check(*settings("Peridynamics/Characteristic Length=0.4")).stdout)
+
+    def test_the_brittleness_number(self):
+        for size, what in [(3.0, "0.9, strength and fracture energy decide together"),
+                           (300.0, "0.009, strength alone decides"),
+                           (0.25, "11, it breaks like a brittle one")]:
+            self.write_case({**self.SOFT, "Material/Fracture Energy": size})  # E G_f / f_t^2 = 1000 G_f / 225, the plate is 12
+            self.assertIn(f"brittleness number {what}", self.check().stdout)
+
+    def test_a_fracture_energy_below_that_of_brittle_bonds(self):
+        self.write_case({**self.SOFT, "Material/Fracture Energy": 0.01})
+        run = self.check()
+        self.assertEqual(run.returncode, 2, run.stdout)
+        self.assertRegex(run.stderr, r'plate.xml: /Material/Fracture Energy: found 0.01; with "Tensile Strength" = 15 and a '
+                                     r'characteristic length of 0.2 allowed is above 0\.\d+, or a length below 0\.\d+ with a '
+                                     r'horizon in proportion, or a strength below \d')
+
     def test_run_gives_the_advice_of_check(self):
         advice = [sorted(line for line in run.stdout.splitlines() if line.startswith("advice"))
                   for run in [self.check(), self.run_case()]]

@@ -182,6 +182,24 @@ class Continued(InThreeDimensions):
                 self.assertEqual(row[name], other[name])
 
 
+class Softening(InThreeDimensions):
+    CASE = changed(InThreeDimensions.CASE, {"Material/Critical Stretch": None, "Material/Bond Law": "Exponential",
+                                            "Material/Tensile Strength": 15.0, "Material/Fracture Energy": 2.0,
+                                            "Material/Poisson's Ratio": 0.2})
+
+    def test_a_restart_ends_with_the_same_bits(self):
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.output = self.folder / f"whole-{ranks}"
+                self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(float(whole[0][-1]["dissipated_energy"]), 1)
+                self.output = self.folder / f"out-{ranks}"
+                self.run_until(INCREMENTS - 4, *EVERY, ranks=ranks)
+                self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
+                self.assert_same(self.outcome(), whole)
+
+
 class Mistakes(InThreeDimensions):
     """Status 2 on any number of ranks, with a message that says where and what."""
 

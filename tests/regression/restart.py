@@ -18,7 +18,7 @@ import unittest
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import ENDLESS, EVERY, INCREMENTS, N, GrowingCrack, plate_mesh
+from fixture import ENDLESS, EVERY, INCREMENTS, N, GrowingCrack, changed, plate_mesh
 
 
 class Continued(GrowingCrack):
@@ -126,6 +126,60 @@ class Continued(GrowingCrack):
             self.assertIn("after increment 13", run.stdout)
             self.assert_same(self.outcome(), whole)
             self.assertEqual(self.checkpoints(), ["checkpoint-000015.h5", "checkpoint-000016.h5"])
+
+
+class Softening(GrowingCrack):
+    """The same plate of bonds that soften, in all increments and between them."""
+
+    CASE = changed(GrowingCrack.CASE, {"Material/Critical Stretch": None, "Material/Bond Law": "Bilinear",
+                                       "Material/Tensile Strength": 15.0, "Material/Fracture Energy": 2.0})
+
+    def whole(self, *options, ranks):
+        self.output = self.folder / "whole"
+        self.run_until(INCREMENTS, *EVERY, *options, ranks=ranks)
+        outcome = self.outcome()
+        self.output = self.folder / "out"
+        self.assertGreater(int(outcome[0][-1]["broken_bonds"]), 20)
+        return outcome
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stops in [(1, [1, 6, 10, 13]), (2, [5, 12]), (4, [11])]:
+            whole = self.whole(ranks=ranks)
+            for stop in stops:
+                with self.subTest(ranks=ranks, stop=stop):
+                    self.run_until(stop, *EVERY, ranks=ranks)
+                    self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
+                    self.assert_same(self.outcome(), whole)
+
+    def test_with_dilatation_and_as_a_matrix_it_ends_with_the_same_bits(self):
+        for option in ["Material/Poisson's Ratio=0.2", "Solver/Operator=CRS", "Material/Bond Law=Exponential"]:
+            with self.subTest(option=option):
+                whole = self.whole("--set", option, ranks=2)
+                self.run_until(12, *EVERY, "--set", option, ranks=2)
+                self.run_until(INCREMENTS, *EVERY, "--set", option, "--restart", ranks=2)
+                self.assert_same(self.outcome(), whole)
+
+    def test_stopped_in_the_midst_of_an_increment_it_ends_with_the_same_bits(self):
+        often = [*EVERY, "--set", "Loading/Softening Tolerance=1e-5"]  # more solves, between which checkpoints are kept
+        whole = self.whole("--set", "Loading/Softening Tolerance=1e-5", ranks=1)
+        limits = [self.run_case("--quiet", *often, "--set", f"Loading/Maximum Damage Iterations={n}") for n in [25]]
+        self.assertEqual([run.returncode for run in limits], [3])
+        self.assertLess(len(self.rows()), INCREMENTS)
+        self.run_until(INCREMENTS, *often, "--restart")
+        self.assert_same(self.outcome(), whole)
+
+    def test_on_other_ranks_it_softens_alike(self):
+        rows = self.whole(ranks=1)[0]
+        for before, after in [(1, 2), (3, 1)]:
+            with self.subTest(before=before, after=after):
+                self.run_until(11, ranks=before)
+                self.run_until(INCREMENTS, "--restart", ranks=after)
+                for row, other in zip(rows, self.rows(), strict=True):
+                    self.assertEqual(row["damaged_elements"], other["damaged_elements"])
+                    # Where softening stops within an increment depends on Damage Tolerance, 1e-4.
+                    self.assertAlmostEqual(float(row["reaction_upper_y"]) / float(other["reaction_upper_y"]), 1, places=2)
+                    self.assertAlmostEqual(float(row["dissipated_energy"]), float(other["dissipated_energy"]),
+                                           delta=0.01 * float(rows[-1]["dissipated_energy"]))
 
 
 class Refused(GrowingCrack):

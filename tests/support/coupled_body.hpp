@@ -29,7 +29,13 @@ struct Setup {
   bonds::StiffnessStorage kept = bonds::StiffnessStorage::stored;
   double poissons_ratio = 1. / 3.;
   double stiffer = 1.;  ///< by how much the elements of odd ids are, with a longer characteristic length; 1: all alike
+  materials::BondLaw law = {};  ///< of all bonds
 };
+
+/// Bonds that soften from a stretch of 0.01 and break at one of 0.36.
+inline materials::BondLaw soft_law() {
+  return materials::BondLaw::softening(materials::Softening::bilinear, 0.01, 0.001);
+}
 
 struct CoupledBody {
   using Matrix = Tpetra::CrsMatrix<double>;
@@ -87,7 +93,9 @@ struct CoupledBody {
     return places;
   }
   materials::BondMaterials bond_materials(const Setup& setup) const {
-    return {{c0, {setup.stiffer * c0.tau0, 1.1 * c0.characteristic_length, c0.horizon}}, of_elements(setup)};
+    return {{c0, {setup.stiffer * c0.tau0, 1.1 * c0.characteristic_length, c0.horizon}},
+            std::vector<materials::BondLaw>(4, setup.law),
+            of_elements(setup)};
   }
   std::vector<operators::Elasticity<2>> elasticities(const Setup& setup) const {
     const double factor = materials::dilatational_ratio(elastic_model, setup.poissons_ratio) / 4.;
@@ -158,6 +166,23 @@ struct CoupledBody {
     return break_bonds(bonds_between([&](int first, int second) {
       return first != second && (mesh.element_ids[first] + mesh.element_ids[second]) % n == 0;
     }));
+  }
+
+  /// Softens the bonds between such pairs, some more than others; of a law that softens.
+  /// @param share of the width of the law, up to a third
+  bonds::BondChange soften_each(int n, double share) {
+    bonds::BondChange change;
+    for (const auto b : bonds_between([&](int first, int second) {
+           return first != second && (mesh.element_ids[first] + mesh.element_ids[second]) % n == 0;
+         })) {
+      const auto bond = bonds.bond(b);
+      const auto& law = model().law(bond);
+      const double of_width = share * (1. + (bond.first_end + bond.second_end) % 3);
+      const auto stretch = static_cast<float>(law.limit() + of_width * (law.critical_stretch() - law.limit()));
+      change.softened.push_back({b, stretch, bonds.share_left(bond) - law.share_left(stretch)});
+    }
+    topology.take(change);
+    return change;
   }
 
   /// The owned nodes whose rows another matrix of the same pattern has other values in.

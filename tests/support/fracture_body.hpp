@@ -40,6 +40,7 @@ struct SpecimenIn {
   int points_per_direction = 2;
   std::optional<double> poissons_ratio = {};  ///< none: what bonds alone have
   morphing::BlendingFunction blending_function = morphing::BlendingFunction::linear;
+  std::optional<materials::BondLaw> law = {};          ///< none: brittle, at the critical stretch
   std::vector<materials::Material<dim>> others = {};   ///< beside the body's
   std::map<std::string, int> material_of_block = {};   ///< 1: the first of the others
   std::optional<materials::Toughness> interface = {};  ///< between any two materials; none: perfect
@@ -53,9 +54,9 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   const double poissons_ratio = specimen.poissons_ratio.value_or(materials::bond_based_poissons_ratio(model));
   auto material = materials::elastic_material<dim>(model, youngs_modulus, poissons_ratio,
                                                    specimen.characteristic_length, specimen.horizon);
-  material.toughness = {
-      specimen.critical_stretch,
-      materials::fracture_energy<dim>(material.micromodulus, specimen.critical_stretch, material.dilatational_ratio)};
+  const materials::BondLaw law = specimen.law.value_or(specimen.critical_stretch);
+  material.toughness = {law, materials::fracture_energy<dim>(material.micromodulus, std::sqrt(2. * law.area()),
+                                                             material.dilatational_ratio)};
   std::vector<materials::Material<dim>> all = {std::move(material)};
   all.insert(all.end(), specimen.others.begin(), specimen.others.end());
   std::vector<materials::Interface> interfaces;

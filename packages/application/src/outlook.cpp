@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/cases/advice.hpp"
@@ -34,14 +35,51 @@ std::string largest_reaction(const base::Comm& comm, const cases::Case& input, c
   return fmt::format(", reaction {} = {:.4g}", largest->column, factor * largest->force);
 }
 
-/// E s_crit of each material.
+/// Smallest extent of the body, [length]. Collective.
 template <int dim>
-void describe_strengths(const cases::Case& input, const model::Problem<dim>& problem, const base::Log& log) {
+double depth(const base::Comm& comm, const mesh::Mesh<dim>& mesh) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < dim; ++c) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (const auto& x : mesh.coordinates) {
+      lowest = std::min(lowest, x[c]);
+      highest = std::max(highest, x[c]);
+    }
+    smallest = std::min(smallest, base::max(comm, highest) + base::max(comm, -lowest));
+  }
+  return smallest;
+}
+
+const char* what_decides(double brittleness) {
+  constexpr double little = 0.1, much = 10.;
+  if (brittleness < little) return "strength alone decides";
+  return brittleness > much ? "it breaks like a brittle one, for which \"Brittle\" bonds suffice"
+                            : "strength and fracture energy decide together";
+}
+
+/// E s_crit of each material; of one that softens by how much the body is larger than its own length.
+template <int dim>
+void describe_strengths(const cases::Case& input, const model::Problem<dim>& problem, double depth,
+                        const base::Log& log) {
   for (std::size_t m = 0; m < problem.materials.size(); ++m) {
     const auto& toughness = problem.materials[m].toughness;
     if (!toughness.breaks()) continue;
+    if (toughness.law.softens()) {
+      const cases::Solid solid = cases::solids_of(input)[m];
+      const double strength = *solid.tensile_strength;
+      const double length = solid.youngs_modulus * toughness.fracture_energy / (strength * strength);
+      log->info(
+          "strength         {}f_t = {:.4g}, where bonds soften from {:.4g}; E G_f / f_t^2 = {:.4g}, the body {:.4g} "
+          "deep: "
+          "brittleness number {:.2g}, {}",
+          whose(problem, m), strength, toughness.law.limit() * solid.youngs_modulus, length, depth, depth / length,
+          what_decides(depth / length));
+      log->info("length           {}l = {:.4g} is one of the material: keep it, and the horizon, on other meshes",
+                whose(problem, m), problem.materials[m].micromodulus.characteristic_length);
+      continue;
+    }
     log->info("strength         {}E s_crit = {:.4g}: about the stress that breaks the material where there is no crack",
-              whose(problem, m), cases::solids_of(input)[m].youngs_modulus * toughness.critical_stretch);
+              whose(problem, m), cases::solids_of(input)[m].youngs_modulus * toughness.critical_stretch());
   }
 }
 
@@ -105,7 +143,7 @@ template <int dim>
 void describe_first_break(const base::Comm& comm, const cases::Case& input, const model::Problem<dim>& problem,
                           fracture::Body<dim>& body, const base::Log& log) {
   if (!problem.breaks() || input.morphing.seeds.empty()) return;
-  describe_strengths(input, problem, log);
+  describe_strengths(input, problem, depth(comm, body.mesh()), log);
   if (!problem.is_proportional) return;  // one solution says nothing of others
   const double last = input.loading.increments;
   body.apply_load(last);

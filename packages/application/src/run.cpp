@@ -34,8 +34,14 @@ void describe_fracture(const Problem<dim>& problem, bool is_calibrated, const ba
       log->info("fracture         {}none: neither critical stretch nor fracture energy is given", name);
       return;
     }
+    if (toughness.law.softens()) {
+      log->info(
+          "fracture         {}bonds soften from a stretch of {:.6g} and break at {:.6g}, fracture energy G_f = {:.6g}",
+          name, toughness.law.limit(), toughness.critical_stretch(), toughness.fracture_energy);
+      return;
+    }
     log->info("fracture         {}critical stretch s_crit = {:.6g}, {} fracture energy G_c = {:.6g}", name,
-              toughness.critical_stretch, is_calibrated ? "calibrated to the mesh," : "by the integral,",
+              toughness.critical_stretch(), is_calibrated ? "calibrated to the mesh," : "by the integral,",
               toughness.fracture_energy);
   };
   for (std::size_t m = 0; m < problem.materials.size(); ++m) {
@@ -87,7 +93,10 @@ std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm
   describe_fracture(problem, is_calibrated, log);
   auto lines = cases::advice(input, size);
   std::vector<double> stretches;
-  for (const auto& material : problem.materials) stretches.push_back(material.toughness.critical_stretch);
+  for (const auto& [name, e0, ratio, c0, toughness, density] : problem.materials) {
+    stretches.push_back(toughness.law.softens() ? std::numeric_limits<double>::infinity()
+                                                : toughness.critical_stretch());
+  }
   for (auto& line : cases::advice_on_stretches(input, stretches)) lines.push_back(std::move(line));
   return lines;
 }

@@ -18,6 +18,7 @@ BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::Mat
       active_(std::move(active)),
       materials_(materials),
       kept_(kept),
+      softens_(materials.softens()),
       visibility_(mesh, pre_cracks),
       searched_(mesh.n_elements(), 0),
       pairs_of_(mesh.n_elements()),
@@ -82,6 +83,7 @@ void BondFamilies<dim>::add_pair(int a, int b, const std::vector<typename Visibi
       if (!computes_stiffness()) {
         stiffness_.push_back(static_cast<float>(c0 * points_.weight(i) * points_.weight(j)));
       }
+      if (softens_) softening_.emplace_back();
       family_volume_[i] += points_.weight(j);
       family_volume_[j] += points_.weight(i);
     }
@@ -112,8 +114,8 @@ int BondFamilies<dim>::pair_of(BondId b) const {
 template <int dim>
 std::size_t BondFamilies<dim>::bytes() const {
   const auto size = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t sum = size(ends_) + size(stiffness_) + size(pairs_) + size(first_bond_) + size(pairs_of_) +
-                    size(family_volume_) + size(lost_volume_);
+  std::size_t sum = size(ends_) + size(stiffness_) + size(softening_) + size(pairs_) + size(first_bond_) +
+                    size(pairs_of_) + size(family_volume_) + size(lost_volume_);
   for (const auto& pairs : pairs_of_) sum += size(pairs);
   return sum;
 }
@@ -140,9 +142,51 @@ void BondFamilies<dim>::take(const BondChange& change) {
                      bond.first_element);
     ends_[b] = static_cast<std::uint16_t>(ends_[b] | broken_bit);
     damaged_[bond.first_element] = damaged_[bond.second_element] = 1;
-    lost_volume_[bond.first_point] += points_.weight(bond.second_point);
-    lost_volume_[bond.second_point] += points_.weight(bond.first_point);
+    lose(bond, share_left(bond));
   }
+  for (const auto& [b, largest_stretch, loss] : change.softened) {
+    const Bond<dim> bond = this->bond(b);
+    PERIMORPH_ASSERT(softens_ && !bond.is_broken, "bond {} softens", b);
+    softening_[b].largest = largest_stretch;
+    lose(bond, loss);
+  }
+}
+
+template <int dim>
+void BondFamilies<dim>::accept_softening() {
+  if (!softens_) return;
+  for_each_bond([&](const Bond<dim>& bond) {
+    const auto& law = materials_.law(bond.first_element, bond.second_element);
+    auto& [accepted, largest] = softening_[bond.id];
+    if (bond.is_broken) largest = static_cast<float>(law.critical_stretch());
+    accepted = largest;
+  });
+}
+
+template <int dim>
+void BondFamilies<dim>::restore(const std::vector<std::pair<BondId, SofteningHistory>>& histories) {
+  accept_softening();
+  for (const auto& [b, history] : histories) softening_[b] = history;
+}
+
+template <int dim>
+void BondFamilies<dim>::note_softening() {
+  if (!softens_) return;
+  for_each_bond([&](const Bond<dim>& bond) {
+    if (softening_[bond.id].largest > 0.F) damaged_[bond.first_element] = damaged_[bond.second_element] = 1;
+  });
+}
+
+template <int dim>
+void BondFamilies<dim>::lose(const Bond<dim>& bond, double share) {
+  lost_volume_[bond.first_point] += share * points_.weight(bond.second_point);
+  lost_volume_[bond.second_point] += share * points_.weight(bond.first_point);
+}
+
+template <int dim>
+void BondFamilies<dim>::recount_damage() {
+  std::fill(lost_volume_.begin(), lost_volume_.end(), 0.);
+  for_each_bond([&](const Bond<dim>& bond) { lose(bond, bond.is_broken ? 1. : 1. - share_left(bond)); });
 }
 
 template <int dim>
@@ -162,18 +206,16 @@ typename BondFamilies<dim>::Extremes BondFamilies<dim>::neighbourhood_extremes(
   return extremes;
 }
 
-/// visit(bond, |xi + eta|^2 / |xi|^2, its critical stretch)
+/// visit(bond, |xi + eta|^2 / |xi|^2, its law) where the stretch reaches threshold(its law)
 template <int dim>
-template <class Visit>
-void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& displacements,
-                                               const CriticalStretches& critical_stretches, double ratio,
-                                               const std::vector<morphing::ElementClass>& classes, Visit visit) const {
+template <class Threshold, class Visit>
+void BondFamilies<dim>::for_each_stretched(const std::vector<Point<dim>>& displacements,
+                                           const std::vector<morphing::ElementClass>& classes, Threshold threshold,
+                                           Visit visit) const {
   PERIMORPH_ASSERT(static_cast<int>(displacements.size()) == points_.size(), "{} displacements of {} points",
                    displacements.size(), points_.size());
   PERIMORPH_ASSERT(static_cast<int>(classes.size()) == mesh_.n_elements(), "{} classes of {} elements", classes.size(),
                    mesh_.n_elements());
-  PERIMORPH_ASSERT(critical_stretches.smallest() >= 0. && ratio >= 0., "{} times a critical stretch of {}", ratio,
-                   critical_stretches.smallest());
   for (int p = 0; p < n_pairs(); ++p) {
     const auto [first, second] = pairs_[p];
     if (first == second || classes[first] != morphing::ElementClass::pd ||
@@ -181,40 +223,70 @@ void BondFamilies<dim>::for_each_overstretched(const std::vector<Point<dim>>& di
       continue;
     }
     // s = |xi + eta| / |xi| - 1 >= s_crit, without the roots   [WHL19, eq. 6, 7]
-    const double critical_stretch = critical_stretches(first, second);
-    const double critical = (1. + ratio * critical_stretch) * (1. + ratio * critical_stretch);
+    const materials::BondLaw& law = materials_.law(first, second);
+    const double least = (1. + threshold(law)) * (1. + threshold(law));
     for_each_bond(p, [&](const Bond<dim>& bond) {
       if (bond.is_broken) return;
       const Point<dim> eta = displacements[bond.second_point] - displacements[bond.first_point];
       PERIMORPH_DEBUG_ASSERT(eta.allFinite(), "a point of bond {} is displaced to nowhere", bond.id);
-      if ((bond.xi + eta).squaredNorm() < critical * bond.xi.squaredNorm()) return;
-      visit(bond, (bond.xi + eta).squaredNorm() / bond.xi.squaredNorm(), critical_stretch);
+      if ((bond.xi + eta).squaredNorm() < least * bond.xi.squaredNorm()) return;
+      visit(bond, (bond.xi + eta).squaredNorm() / bond.xi.squaredNorm(), law);
     });
   }
 }
 
 template <int dim>
 std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim>>& displacements,
-                                                     const CriticalStretches& critical,
                                                      const std::vector<morphing::ElementClass>& classes,
                                                      double ratio) const {
+  PERIMORPH_ASSERT(ratio >= 0., "{} times a limit", ratio);
   std::vector<double> ratios;
-  for_each_overstretched(displacements, critical, ratio, classes,
-                         [&](const Bond<dim>& bond, double squared_ratio, double critical_stretch) {
-                           if (bond.first_element >= mesh_.n_owned_elements) return;
-                           ratios.push_back((std::sqrt(squared_ratio) - 1.) / critical_stretch);
-                         });
+  for_each_stretched(
+      displacements, classes, [&](const materials::BondLaw& law) { return ratio * law.limit(); },
+      [&](const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law) {
+        if (bond.first_element >= mesh_.n_owned_elements) return;
+        ratios.push_back((std::sqrt(squared_ratio) - 1.) / law.limit());
+      });
   return ratios;
 }
 
 template <int dim>
 std::vector<BondId> BondFamilies<dim>::overstretched(const std::vector<Point<dim>>& displacements,
-                                                     const CriticalStretches& critical,
                                                      const std::vector<morphing::ElementClass>& classes,
                                                      double ratio) const {
+  PERIMORPH_ASSERT(ratio >= 0., "{} times a critical stretch", ratio);
   std::vector<BondId> found;
-  for_each_overstretched(displacements, critical, ratio, classes,
-                         [&](const Bond<dim>& bond, double, double) { found.push_back(bond.id); });
+  for_each_stretched(
+      displacements, classes, [&](const materials::BondLaw& law) { return ratio * law.critical_stretch(); },
+      [&](const Bond<dim>& bond, double, const materials::BondLaw&) { found.push_back(bond.id); });
+  return found;
+}
+
+template <int dim>
+std::vector<SoftenedBond> BondFamilies<dim>::softened(const std::vector<Point<dim>>& displacements,
+                                                      const std::vector<morphing::ElementClass>& classes,
+                                                      bool may_recover) const {
+  constexpr float further = 1.5F, almost = 0.999F;
+  std::vector<SoftenedBond> found;
+  if (!softens_) return found;
+  for_each_stretched(
+      displacements, classes, [](const materials::BondLaw& law) { return law.softens() ? -1. : law.limit(); },
+      [&](const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law) {
+        const auto [accepted, before] = softening_[bond.id];
+        const auto limit = static_cast<float>(law.limit()), critical = static_cast<float>(law.critical_stretch());
+        const auto now = static_cast<float>(std::sqrt(squared_ratio) - 1.);
+        if (now >= critical) return;
+        float stretch = std::max(now > limit ? now : 0.F, may_recover ? accepted : before);
+        if (stretch > before && may_recover) {
+          const float from = std::max(before, limit);
+          stretch = std::min(from + further * (stretch - from), almost * critical);
+        } else if (stretch < before) {
+          const float half_way = 0.5F * (stretch + before);
+          if (half_way > limit) stretch = half_way;
+        }
+        if (stretch == before) return;
+        found.push_back({bond.id, stretch, share_left(bond) - law.share_left(stretch)});
+      });
   return found;
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 /// Below these, and what it costs: tests/verification/README.md has the measurements.
 constexpr double least_length = 0.3;         // characteristic, in element sizes
+constexpr double most_elements = 3.2;        // an element, in characteristic lengths of bonds that soften
 constexpr double least_horizon = 3.;         // in element sizes
 constexpr double most_cut_off = 0.05;        // of the micromodulus, by the horizon
 constexpr double least_rim = 1.;             // over which alpha falls, in horizons
@@ -64,6 +65,10 @@ class Advice {
   }
 
   void check_length() {
+    const auto solids = solids_of(input_);
+    if (std::any_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.softens(); })) {
+      return check_length_of_material();
+    }
     const double length = length_ / size_;
     if (!breaks_ || length >= least_length || input_.dimension != 2) return;  // in three dimensions little is held up
     const auto& numerical = input_.numerical;
@@ -78,6 +83,17 @@ class Advice {
         "Better is a third of an element, {:.3g}, with a horizon of four",
         length_, length, resistance,
         is_calibrated ? " (for which the critical stretch makes up), and they move in jumps" : "", size_ / 3.);
+  }
+
+  void check_length_of_material() {
+    if (size_ <= most_elements * length_) return;
+    add("/Peridynamics/Characteristic Length",
+        "{:.4g} is {:.2f} of an element; of bonds that soften it is a length of the material, and stays as it is on "
+        "other "
+        "meshes. In elements of more than three times this length, bodies are some 5 % too strong and too tough; "
+        "better "
+        "are elements of {:.3g}",
+        length_, length_ / size_, 3. * length_);
   }
 
   void check_horizon() {

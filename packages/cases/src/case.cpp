@@ -65,7 +65,8 @@ void check(const Resolved& resolved, Mistakes& mistakes) {
   check_morphing(root.sub("Morphing"), *dimension);
   for (const auto& crack : root.subs("Pre-Cracks")) check_pre_crack(crack, *dimension);
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);
-  check_solver(root.sub("Solver"), has_dilatation(root));
+  check_solver(root.sub("Solver"), has_dilatation(root), softens(root));
+  check_loading(root.sub("Loading"), softens(root));
   check_output(root.sub("Output"), *dimension);
 }
 

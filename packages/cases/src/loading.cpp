@@ -18,6 +18,25 @@ void declare(const input::Section& section, Loading& loading, model::NumericalOp
                     "relieve are spared; an unstable crack takes as many times more solutions.");
   changeable.parameter("Maximum Zone Growths", loading.max_zone_growths, count(),
                        "Growths of the peridynamic zone within one increment, after which the run ends with status 3.");
+  changeable.parameter(
+      "Softening Tolerance", numerical.softening_tolerance, between(0., 1.),
+      "Within one increment, softening is followed until what it takes from the forces is this small a "
+      "share of the reactions [-]. Only for bonds that soften; the rest softens in the next increment.");
+}
+
+void check_loading(const input::Values& section, bool softens) {
+  const double* fraction = section.number("Breaking Fraction");
+  if (softens && fraction != nullptr && *fraction < 1.) {
+    section.mistake("Breaking Fraction",
+                    fmt::format("found {}; with bonds that soften allowed is 1: at the critical stretch they hold "
+                                "nothing any more, and breaking some of them first would have no effect",
+                                *fraction));
+  }
+  const double* tolerance = section.number("Softening Tolerance");
+  if (softens || tolerance == nullptr || *tolerance == model::NumericalOptions().softening_tolerance) return;
+  section.mistake("Softening Tolerance",
+                  fmt::format("found {}, but no bonds soften; allowed is it with a \"Bond Law\" other than \"Brittle\"",
+                              *tolerance));
 }
 
 }  // namespace perimorph::cases

@@ -14,6 +14,7 @@ namespace perimorph::cases {
 namespace {
 
 using materials::ElasticModel;
+using materials::Softening;
 using model::Calibration;
 
 constexpr std::array<Choice<ElasticModel>, 3> elastic_models{
@@ -22,6 +23,8 @@ constexpr std::array<Choice<ElasticModel>, 3> elastic_models{
      {"Three-Dimensional", ElasticModel::three_dimensional, 3}}};
 constexpr std::array<Choice<Calibration>, 2> calibrations{
     {{"Analytic", Calibration::analytic}, {"Mesh-Consistent", Calibration::mesh_consistent}}};
+constexpr std::array<Choice<Softening>, 3> bond_laws{
+    {{"Brittle", Softening::none}, {"Bilinear", Softening::bilinear}, {"Exponential", Softening::exponential}}};
 
 /// The ratio that bonds alone have, for one within 0.1 % of it; another as it is.
 double exact_ratio(ElasticModel model, double ratio) {
@@ -60,7 +63,33 @@ void check_poissons_ratio(const input::Values& solid, ElasticModel model) {
   }
 }
 
+bool is_soft(const input::Values& section) {
+  const std::string* word = section.text("Bond Law");
+  return word != nullptr && input::value_of(bond_laws, *word) != Softening::none;
+}
+
+void check_softening(const input::Values& section) {
+  for (const char* needed : {"Tensile Strength", "Fracture Energy"}) {
+    if (section.given(needed)) continue;
+    section.mistake(needed,
+                    fmt::format("missing; \"Bond Law\" = {} needs it: bonds soften from the one, and how slowly "
+                                "follows from the other",
+                                input::in_quotes(*section.text("Bond Law"))));
+  }
+  if (!section.given("Critical Stretch")) return;
+  section.mistake("Critical Stretch", fmt::format("found beside \"Bond Law\" = {}; allowed is it with \"Brittle\": of "
+                                                  "softening bonds it follows from strength and energy",
+                                                  input::in_quotes(*section.text("Bond Law"))));
+}
+
 void check_fracture(const input::Values& section) {
+  if (is_soft(section)) return check_softening(section);
+  if (section.given("Tensile Strength")) {
+    section.mistake(
+        "Tensile Strength",
+        "found with \"Bond Law\" = \"Brittle\"; allowed is it with \"Bilinear\" or \"Exponential\": brittle "
+        "bonds have a fracture energy alone");
+  }
   if (!section.given("Critical Stretch") || !section.given("Fracture Energy")) return;
   section.mistake("Fracture Energy",
                   "found beside \"Critical Stretch\"; allowed is one of the two: each follows from the other");
@@ -108,7 +137,7 @@ std::set<std::string> names_of_materials(const input::Values& root) {
 void check_interface(const input::Values& interface, const std::set<std::string>& known,
                      std::map<std::set<std::string>, std::string>& seen) {
   check_fracture(interface);
-  if (!interface.given("Critical Stretch") && !interface.given("Fracture Energy")) {
+  if (!is_soft(interface) && !interface.given("Critical Stretch") && !interface.given("Fracture Energy")) {
     interface.mistake("Fracture Energy", "missing, and so is \"Critical Stretch\"; allowed is one of the two");
   }
   const auto* names = interface.texts("Materials");
@@ -161,19 +190,30 @@ void declare_stiffness(const input::Section& section, Solid& solid) {
 
 void declare_fracture(const input::Section& section, Fracture& fracture) {
   using namespace input;
+  section.choice(
+      "Bond Law", fracture.bond_law, bond_laws,
+      "How bonds fail: \"Brittle\" ones at once, as those of glass, ceramics and acrylic [WHL19]. Bonds of "
+      "concrete, mortar and rock soften: \"Bilinear\" (Petersson's curve with a kink at a third) or "
+      "\"Exponential\", from the tensile strength and the fracture energy. The characteristic length is then "
+      "one of the material, like the size of its grains, and stays as it is on other meshes.");
+  section.optional("Tensile Strength", fracture.tensile_strength, 3., above(0.),
+                   "f_t [stress] of bonds that soften: the largest stress that a bar bears under tension. Not for "
+                   "\"Brittle\", where it follows from the fracture energy and the size of the flaws.");
   section.optional(
       "Critical Stretch", fracture.critical_stretch, 0.05, above(0.),
       "s_crit [-]: a bond whose stretch |xi + u(p) - u(x)|/|xi| - 1 reaches it breaks for good [WHL19, eq. 6, 7]. "
       "Given the horizon and the characteristic length it follows from the fracture energy, so give one of the two; "
       "with neither, nothing breaks. Forces at failure are proportional to it. The strain at a crack's tip grows as "
       "elements get smaller, so with a fixed stretch a finer mesh breaks earlier.");
-  section.optional("Fracture Energy", fracture.fracture_energy, 0.1, above(0.),
-                   "G_c [force/length]: the energy per area of new crack. The critical stretch is derived from it, in "
-                   "two dimensions by G_c = s_crit^2 times the integral of c0(r) r^6 over r from 0 to the horizon, in "
-                   "three by pi/2 s_crit^2 times that of c0(r) r^7, and what the dilatation stores beside, so that it "
-                   "stays the same when the horizon or the "
-                   "characteristic length is changed. Data sheets give toughness K_c = sqrt(G_c E) in plane stress; "
-                   "K_c taken for G_c is wrong by orders of magnitude.");
+  section.optional(
+      "Fracture Energy", fracture.fracture_energy, 0.1, above(0.),
+      "G_c [force/length]: the energy per area of new crack. The critical stretch is derived from it, in "
+      "two dimensions by G_c = s_crit^2 times the integral of c0(r) r^6 over r from 0 to the horizon, in "
+      "three by pi/2 s_crit^2 times that of c0(r) r^7, and what the dilatation stores beside, so that it "
+      "stays the same when the horizon or the "
+      "characteristic length is changed. Data sheets give toughness K_c = sqrt(G_c E) in plane stress; "
+      "K_c taken for G_c is wrong by orders of magnitude. Of bonds that soften: G_f (G_F in codes), the work of "
+      "fracture per area, such as 0.05 to 0.15 N/mm for concrete.");
 }
 
 void declare_density(const input::Section& section, Solid& solid) {
@@ -248,6 +288,11 @@ void complete_materials(Teuchos::ParameterList& root) {
   complete(main);
   auto& others = root.sublist("Materials");
   for (const auto& item : others) complete(others.sublist(item.first));
+}
+
+bool softens(const input::Values& root) {
+  const auto all = solids(root), between = root.subs("Interfaces");
+  return std::any_of(all.begin(), all.end(), is_soft) || std::any_of(between.begin(), between.end(), is_soft);
 }
 
 bool has_dilatation(const input::Values& root) {

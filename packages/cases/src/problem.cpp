@@ -7,6 +7,7 @@
 #include "mesh_checks.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/cases/geometry.hpp"
+#include "perimorph/materials/softening.hpp"
 
 namespace perimorph::cases {
 
@@ -31,29 +32,50 @@ discretization::Loads<dim> make_loads(const Case& input) {
           std::move(weight)};
 }
 
-/// What is given, and what follows by integrals.
-template <class StretchOf, class EnergyOf>
-materials::Toughness toughness_of(const Fracture& fracture, StretchOf stretch_of, EnergyOf energy_of) {
-  materials::Toughness toughness;
-  if (fracture.critical_stretch) toughness.critical_stretch = *fracture.critical_stretch;
-  if (fracture.fracture_energy) toughness.critical_stretch = stretch_of(*fracture.fracture_energy);
-  toughness.fracture_energy = energy_of(toughness.critical_stretch);
-  toughness.is_stretch_given = fracture.critical_stretch.has_value();
-  return toughness;
+/// Strength and fracture energy of bonds that soften must go together.
+/// @param length the characteristic one, to which the least energy is proportional, [length]
+void check_energy(const std::string& path, const Fracture& fracture, double least_energy, double length) {
+  const double strength = *fracture.tensile_strength, energy = *fracture.fracture_energy;
+  if (energy > least_energy) return;
+  throw base::UserError(
+      fmt::format("{}/Fracture Energy: found {:.4g}; with \"Tensile Strength\" = {:.4g} and a characteristic length of "
+                  "{:.4g} allowed is "
+                  "above {:.4g}, or a length below {:.4g} with a horizon in proportion, or a strength below {:.4g}: "
+                  "bonds would have to "
+                  "be more brittle than brittle ones",
+                  path, energy, strength, length, least_energy, length * energy / least_energy,
+                  strength * std::sqrt(energy / least_energy)));
+}
+
+/// What is given, and what follows by integrals; of bonds between two materials, or within one.
+/// @param path of the section, for mistakes
+template <int dim>
+materials::Toughness toughness_of(const std::string& path, const Fracture& fracture,
+                                  const materials::Material<dim>& one, const materials::Material<dim>& other,
+                                  double unit_energy) {
+  if (fracture.softens()) {
+    const double strength = *fracture.tensile_strength;
+    check_energy(path, fracture, materials::least_fracture_energy(one, other, strength),
+                 std::max(one.micromodulus.characteristic_length, other.micromodulus.characteristic_length));
+    return materials::softening_toughness(one, other, fracture.bond_law, strength, *fracture.fracture_energy);
+  }
+  if (fracture.fracture_energy) {
+    return {std::sqrt(*fracture.fracture_energy / unit_energy), *fracture.fracture_energy};
+  }
+  if (!fracture.critical_stretch) return {};
+  return {*fracture.critical_stretch, *fracture.critical_stretch * *fracture.critical_stretch * unit_energy, true};
 }
 
 template <int dim>
-materials::Material<dim> make_material(const Case& input, const Solid& solid) {
+materials::Material<dim> make_material(const Case& input, const Solid& solid, const std::string& path) {
   const auto& [horizon, length] = input.peridynamics;
   auto material =
       materials::elastic_material<dim>(input.material.elastic_model, solid.youngs_modulus, solid.poissons_ratio,
                                        solid.characteristic_length.value_or(length), horizon);
   material.name = solid.name;
-  const auto& c0 = material.micromodulus;
-  const double ratio = material.dilatational_ratio;
-  material.toughness = toughness_of(
-      solid, [&](double energy) { return materials::critical_stretch<dim>(c0, energy, ratio); },
-      [&](double stretch) { return materials::fracture_energy<dim>(c0, stretch, ratio); });
+  material.toughness =
+      toughness_of(input.file + ": " + path, solid, material, material,
+                   materials::fracture_energy<dim>(material.micromodulus, 1., material.dilatational_ratio));
   return material;
 }
 
@@ -70,9 +92,8 @@ std::vector<materials::Interface> make_interfaces(const Case& input,
         return std::set<std::string>(i.materials.begin(), i.materials.end()) == std::set{one.name, other.name};
       });
       if (given == input.interfaces.end()) continue;
-      interfaces.back().toughness = toughness_of(
-          *given, [&](double energy) { return materials::critical_stretch(one, other, energy); },
-          [&](double stretch) { return materials::fracture_energy(one, other, stretch); });
+      interfaces.back().toughness = toughness_of(input.file + ": /Interfaces/" + given->name, *given, one, other,
+                                                 materials::fracture_energy(one, other, 1.));
     }
   }
   return interfaces;
@@ -83,7 +104,7 @@ template <int dim>
 void check_numbers(const Case& input, const materials::Material<dim>& material, const Solid& solid) {
   const auto is_sound = [](double value) { return std::isfinite(value) && value > 0.; };
   const auto& [tau0, length, horizon] = material.micromodulus;
-  const double stretch = material.toughness.critical_stretch, energy = material.toughness.fracture_energy;
+  const double stretch = material.toughness.critical_stretch(), energy = material.toughness.fracture_energy;
   if (is_sound(tau0) && (!solid.breaks() || (is_sound(stretch) && is_sound(energy)))) return;
   throw base::UserError(
       fmt::format("{}: /Material and /Peridynamics give tau0 = {:.4g}, s_crit = {:.4g}, G_c = {:.4g}, with E = {:.4g}, "
@@ -105,7 +126,8 @@ model::Problem<dim> make_problem(const Case& input) {
   for (const Solid& solid : solids_of(input)) {
     for (const auto& block : solid.blocks)
       problem.material_of_block[block] = static_cast<int>(problem.materials.size());
-    problem.materials.push_back(make_material<dim>(input, solid));
+    const bool is_first = problem.materials.empty();
+    problem.materials.push_back(make_material<dim>(input, solid, is_first ? "/Material" : "/Materials/" + solid.name));
     check_numbers(input, problem.materials.back(), solid);
   }
   problem.interfaces = make_interfaces(input, problem.materials);

@@ -68,9 +68,17 @@ void declare(const input::Section& decisive, Solver& solver, model::NumericalOpt
       "are the program's.");
 }
 
-void check_solver(const input::Values& section, bool has_dilatation) {
+void check_solver(const input::Values& section, bool has_dilatation, bool softens) {
   const std::string* word = section.text("Operator");
-  if (!has_dilatation || word == nullptr || input::value_of(operator_forms, *word) != OperatorForm::crs) return;
+  if (word == nullptr) return;
+  const auto form = input::value_of(operator_forms, *word);
+  if (softens && form == OperatorForm::on_the_fly) {
+    section.mistake(
+        "Operator",
+        "found \"On-the-Fly\"; with bonds that soften allowed is \"Matrix-Free\" or \"CRS\": what each bond "
+        "has left of its stiffness must be stored anyway");
+  }
+  if (!has_dilatation || form != OperatorForm::crs) return;
   section.mistake(
       "Operator",
       "found \"CRS\"; with this Poisson's ratio allowed is \"Matrix-Free\" or \"On-the-Fly\": through the "

@@ -13,22 +13,66 @@ namespace {
 template <int dim>
 constexpr auto stride = static_cast<std::size_t>(SavedState<dim>::values_per_element);
 
+template <int dim>
+std::pair<GlobalId, GlobalId> global_ends(const Topology<dim>& topology, const bonds::Bond<dim>& bond) {
+  return {topology.points().global_id(bond.first_element, bond.first_end),
+          topology.points().global_id(bond.second_element, bond.second_end)};
+}
+
+/// Calls visit(record, bond) for the records of bonds that this rank holds. Returns of how many it owns the first
+/// element. Local.
+template <int dim, class Record, class Visit>
+GlobalId visit_held(const std::vector<Record>& records, const Topology<dim>& topology, Visit visit) {
+  constexpr int n = elements::max_points;
+  const auto& mesh = topology.mesh();
+  const auto& bonds = topology.bonds();
+  std::map<GlobalId, int> place_of;
+  for (int e = 0; e < mesh.n_elements(); ++e) place_of[mesh.element_ids[e]] = e;
+  GlobalId n_own = 0;
+  for (const auto& record : records) {
+    const auto first = place_of.find(record.first / n), second = place_of.find(record.second / n);
+    if (first == place_of.end() || second == place_of.end()) continue;
+    const auto bond = bonds.find(first->second, static_cast<int>(record.first % n), second->second,
+                                 static_cast<int>(record.second % n));
+    if (bond == bonds.n_bonds()) continue;
+    visit(record, bond);
+    n_own += first->second < mesh.n_owned_elements;
+  }
+  return n_own;
+}
+
+void check_found(GlobalId n_found, GlobalId n, const char* what) {
+  if (n_found == n) return;
+  throw base::UserError(fmt::format("of {} {} bonds only {} are bonds of this body", n, what, n_found));
+}
+
 }  // namespace
 
 template <int dim>
 SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
   PERIMORPH_ASSERT(state.displacement.size() == static_cast<std::size_t>(topology.dofs().n_nodes()) * dim,
                    "{} displacements of {} nodes", state.displacement.size(), topology.dofs().n_nodes());
-  SavedState<dim> saved{state, {}, {}};
+  SavedState<dim> saved{state, {}, {}, {}};
   const auto& mesh = topology.mesh();
   const auto& bonds = topology.bonds();
   for (const auto& [call, broken] : state.broken) {
     for (const auto id : broken) {
       const auto bond = bonds.bond(id);
       if (bond.first_element >= mesh.n_owned_elements) continue;
-      saved.broken.push_back({topology.points().global_id(bond.first_element, bond.first_end),
-                              topology.points().global_id(bond.second_element, bond.second_end), call});
+      const auto [first, second] = global_ends(topology, bond);
+      saved.broken.push_back({first, second, call});
     }
+  }
+  if (bonds.softens()) {
+    bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
+      if (bond.first_element >= mesh.n_owned_elements) return;
+      const auto [accepted, largest] = bonds.softening(bond.id);
+      const auto& law = bonds.materials().law(bond.first_element, bond.second_element);
+      const bool is_known = bond.is_broken && accepted == static_cast<float>(law.critical_stretch());
+      if (is_known || (!bond.is_broken && accepted == 0.F && largest == 0.F)) return;
+      const auto [first, second] = global_ends(topology, bond);
+      saved.softened.push_back({first, second, {accepted, largest}});
+    });
   }
   saved.displacement.assign(mesh.n_owned_elements * stride<dim>, 0.);
   for (int e = 0; e < mesh.n_owned_elements; ++e) {
@@ -42,27 +86,24 @@ SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
 
 template <int dim>
 BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology) {
-  constexpr int n = elements::max_points;
-  const auto& mesh = topology.mesh();
-  const auto& bonds = topology.bonds();
-  std::map<GlobalId, int> place_of;
-  for (int e = 0; e < mesh.n_elements(); ++e) place_of[mesh.element_ids[e]] = e;
   BrokenByCall found;
-  GlobalId n_own = 0;
-  for (const auto& broken : saved.broken) {
-    const auto first = place_of.find(broken.first / n), second = place_of.find(broken.second / n);
-    if (first == place_of.end() || second == place_of.end()) continue;
-    const auto bond = bonds.find(first->second, static_cast<int>(broken.first % n), second->second,
-                                 static_cast<int>(broken.second % n));
-    if (bond == bonds.n_bonds()) continue;
+  const GlobalId n_own = visit_held(saved.broken, topology, [&](const BrokenBond& broken, bonds::BondId bond) {
     found[broken.call].push_back(bond);
-    n_own += first->second < mesh.n_owned_elements;
-  }
+  });
   for (auto& [call, ascending] : found) std::sort(ascending.begin(), ascending.end());
-  const GlobalId n_found = base::sum(comm, n_own);
-  if (n_found == saved.counts.broken_bonds) return found;
-  throw base::UserError(
-      fmt::format("of {} broken bonds only {} are bonds of this body", saved.counts.broken_bonds, n_found));
+  check_found(base::sum(comm, n_own), saved.counts.broken_bonds, "broken");
+  return found;
+}
+
+template <int dim>
+SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology) {
+  SofteningHistories found;
+  const GlobalId n_own = visit_held(saved.softened, topology, [&](const SoftBond& softened, bonds::BondId bond) {
+    const auto& [accepted, largest] = softened.largest_stretches;
+    found.push_back({bond, {static_cast<float>(accepted), static_cast<float>(largest)}});
+  });
+  check_found(base::sum(comm, n_own), static_cast<GlobalId>(saved.softened.size()), "softened");
+  return found;
 }
 
 template <int dim>
@@ -80,9 +121,10 @@ std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topol
   return u;
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                    \
-  template SavedState<dim> save(const State<dim>&, const Topology<dim>&);                             \
-  template BrokenByCall find_broken(const base::Comm&, const SavedState<dim>&, const Topology<dim>&); \
+#define PERIMORPH_INSTANTIATE(dim)                                                                            \
+  template SavedState<dim> save(const State<dim>&, const Topology<dim>&);                                     \
+  template BrokenByCall find_broken(const base::Comm&, const SavedState<dim>&, const Topology<dim>&);         \
+  template SofteningHistories find_softened(const base::Comm&, const SavedState<dim>&, const Topology<dim>&); \
   template std::vector<double> nodal_displacement(const SavedState<dim>&, const Topology<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

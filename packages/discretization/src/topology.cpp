@@ -136,6 +136,7 @@ template <int dim>
 GlobalId Topology<dim>::flag_damaged_elements(std::vector<FlagPoint<dim>>& flag_points) {
   const GlobalId growth = flag_points.empty() ? 1 : flag_points.back().growth + 1;
   std::vector<FlagPoint<dim>> own;
+  bonds_.note_softening();
   for (int e = 0; e < mesh_.n_owned_elements; ++e) {
     if (flagged_[e] || !bonds_.is_damaged(e)) continue;
     flagged_[e] = 1;
@@ -152,7 +153,11 @@ template <int dim>
 void Topology<dim>::note_flags(const std::vector<FlagPoint<dim>>& flag_points) {
   std::set<GlobalId> elements;
   for (const auto& flag : flag_points) elements.insert(flag.element);
-  for (int e = 0; e < mesh_.n_owned_elements; ++e) flagged_[e] = elements.count(mesh_.element_ids[e]) > 0;
+  for (int e = 0; e < mesh_.n_elements(); ++e) {
+    if (elements.count(mesh_.element_ids[e]) == 0) continue;
+    if (e < mesh_.n_owned_elements) flagged_[e] = 1;
+    bonds_.note_damage(e);
+  }
 }
 
 template <int dim>

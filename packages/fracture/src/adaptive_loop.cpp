@@ -14,6 +14,10 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
       fmt::format("increment {}: more than {} {}; /Loading/{} sets this limit", increment, limit, what, parameter));
 }
 
+/// Within an increment: as long as softening may recover, so that it does not depend on how large the increment is.
+/// After that it only grows, and so comes to an end.
+constexpr int free_solves = 10;
+
 /// Solves and breaks bonds until nothing breaks any more; returns false if it was asked to stop.
 template <int dim>
 bool break_until_quiet(Body<dim>& body, const LoopLimits& limits, LoopObserver<dim>& observer, LoopPosition& position) {
@@ -26,7 +30,7 @@ bool break_until_quiet(Body<dim>& body, const LoopLimits& limits, LoopObserver<d
       position.is_solved = true;
     }
     if (observer.stop_requested(position, body)) return false;
-    const bool is_quiet = body.break_bonds() == 0;
+    const bool is_quiet = body.break_bonds(position.damage_iterations <= free_solves) == 0;
     const bool is_accurate = position.accuracy == Accuracy::accepted;
     position.is_solved = false;
     position.accuracy = is_quiet && !is_accurate ? Accuracy::accepted : Accuracy::breaking;
@@ -56,6 +60,7 @@ LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& lim
     }
     if (!break_until_quiet(body, limits, observer, position)) return LoopEnd::stopped;
   } while (body.flag_damaged_elements() > 0);
+  body.accept_softening();
   position = {increment};
   observer.accepted(increment, body);
   return LoopEnd::done;

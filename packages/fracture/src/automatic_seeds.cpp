@@ -34,7 +34,7 @@ std::vector<char> held_nodes(const mesh::Mesh<dim>& mesh, const Problem<dim>& pr
 template <int dim>
 std::function<double(int)> tenderness(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
   if (!problem.breaks()) return [](int) { return 1.; };
-  return [critical = model::critical_stretches(mesh, problem)](int e) { return critical.smallest() / critical(e, e); };
+  return [of = model::bond_materials(mesh, problem)](int e) { return of.smallest_limit() / of.law(e, e).limit(); };
 }
 
 template <int dim>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/fracture/damage.hpp"
@@ -15,13 +16,6 @@ using base::GlobalId;
 using base::Phase;
 
 namespace {
-
-template <int dim>
-materials::BondMaterials bond_materials(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
-  std::vector<materials::Micromodulus> micromoduli;
-  for (const auto& material : problem.materials) micromoduli.push_back(material.micromodulus);
-  return {std::move(micromoduli), model::materials_of_elements(mesh, problem)};
-}
 
 template <int dim>
 operators::MorphedStiffness<dim> elasticity(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem,
@@ -36,7 +30,7 @@ discretization::TopologyOptions<dim> topology_options(const mesh::Mesh<dim>& mes
                                                       const NumericalOptions& options) {
   return {problem.seeds,
           problem.pre_cracks,
-          bond_materials(mesh, problem),
+          model::bond_materials(mesh, problem),
           options.blending_function,
           options.discontinuous,
           options.growth_inner_radius,
@@ -59,7 +53,6 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       problem_(problem),
       options_(options),
       profile_(profile),
-      critical_stretches_(model::critical_stretches(mesh, problem)),
       topology_(comm, mesh, topology_options(mesh, problem, options)),
       dirichlet_(*comm, mesh, problem.displacements),
       system_(*comm, topology_, dirichlet_, problem.loads, elasticity(mesh, problem, options), system_options(options),
@@ -73,7 +66,8 @@ template <int dim>
 void Body<dim>::apply_load(double load_factor) {
   PERIMORPH_ASSERT(std::isfinite(load_factor), "load factor {}", load_factor);
   state_.counts.linear_solves = state_.counts.cg_iterations = 0;
-  work_.load_changes();
+  state_.load_step = load_factor - state_.load_factor;
+  work_.load_changes(state_.load_step);
   // Everything is linear while no bond breaks: under proportional load the displacement scales.
   if (problem_.is_proportional && state_.load_factor != 0.) {
     const double factor = load_factor / state_.load_factor;
@@ -148,7 +142,17 @@ void Body<dim>::solve(Accuracy accuracy) {
     system_.evaluate(displacement());
     throw UnfinishedIncrement(reason);
   }
-  state_.energies.external_work += base::sum(*comm_, work_.up_to(u, system_.internal_force(), system_.loads()));
+  state_.energies.external_work +=
+      base::sum(*comm_, work_.up_to(u, system_.internal_force(), system_.loads(), power_of_supports()));
+}
+
+/// Of this rank's: how fast they do work as the load factor grows, where bonds soften; 0 otherwise, [energy].
+template <int dim>
+double Body<dim>::power_of_supports() const {
+  if (!topology_.bonds().softens()) return 0.;
+  const auto rates = system_.space().prescribed_rates();
+  const auto& force = system_.internal_force();
+  return std::inner_product(force.begin(), force.end(), rates.begin(), 0.);
 }
 
 /// Where nothing holds a part against its loads, or nothing but bonds that would break, that is why.
@@ -166,7 +170,7 @@ std::string Body<dim>::reason_for(const std::string& trouble) const {
                        fmt::join(free[0].load, ", "));
   }
   const auto& u = system_.at_points().displacement;
-  const auto free = free_without(topology_.bonds().overstretched(u, critical_stretches_, topology_.classes()));
+  const auto free = free_without(topology_.bonds().overstretched(u, topology_.classes()));
   if (free.empty()) return trouble;
   return fmt::format(
       "no equilibrium was found: only bonds beyond the critical stretch hold {} against a load of ({:.6g})",
@@ -174,22 +178,38 @@ std::string Body<dim>::reason_for(const std::string& trouble) const {
 }
 
 template <int dim>
-GlobalId Body<dim>::break_bonds() {
+GlobalId Body<dim>::break_bonds(bool may_recover) {
   const auto timer = profile_.measure(Phase::bonds);
   if (!problem_.breaks()) return 0;
   PERIMORPH_ASSERT(system_.has_forces(), "nothing has been solved for load factor {}", state_.load_factor);
-  auto change = bonds_that_break(*comm_, model(), system_.at_points(), topology_.classes(),
-                                 {critical_stretches_, options_.breaking_fraction});
+  auto [change, held_energy] =
+      find_damage(*comm_, model(), system_.at_points(), topology_.classes(), options_.breaking_fraction, may_recover);
+  if (change.n_broken == 0 && change.n_softened > 0 && is_settled(change)) change = {};
   if (change.n_broken > 0 && model().has_dilatation()) {
-    const double before = elastic_energy();
+    const double share = change.energy / held_energy, before = elastic_energy();
+    auto softened = std::exchange(change.softened, {});
     publish(change);
     system_.evaluate(displacement());
-    change.energy = before - elastic_energy();  // part of it was not the bonds' own
+    change.energy = share * (before - elastic_energy());  // part of it was not the bonds' own
+    publish({{}, 0, 0., std::move(softened)});
   } else {
     publish(change);
   }
   state_.take(change);
-  return change.n_broken;
+  return change.n_broken + change.n_softened;
+}
+
+template <int dim>
+bool Body<dim>::is_settled(const bonds::BondChange& change) const {
+  const auto norms = system_.imbalance_after(change);
+  return norms.residual <= options_.softening_tolerance * std::max(norms.reaction, state_.force_scale);
+}
+
+template <int dim>
+void Body<dim>::accept_softening() {
+  if (!topology_.bonds().softens()) return;
+  state_.energies.dissipated += base::sum(*comm_, operators::dissipation_of_softening(model(), system_.at_points()));
+  topology_.accept_softening();
 }
 
 /// To all that is built from bonds.
@@ -197,7 +217,7 @@ template <int dim>
 void Body<dim>::publish(const bonds::BondChange& change) {
   topology_.take(change);
   const auto changed = system_.take(change);
-  if (!change.broken.empty()) equilibrium_.linear_solver().note_change(changed);
+  if (!change.is_empty()) equilibrium_.linear_solver().note_change(changed);
 }
 
 template <int dim>
@@ -223,17 +243,28 @@ void Body<dim>::restore(const discretization::SavedState<dim>& saved) {
   }
   rebuild(has_grown);
   for (; next != state_.broken.end(); ++next) publish({next->second});
+  if (topology_.bonds().softens()) topology_.restore(discretization::find_softened(*comm_, saved, topology_));
 
   static_cast<discretization::History<dim>&>(state_) = saved;
   state_.displacement = discretization::nodal_displacement(saved, topology_);
-  system_.apply_load(state_.load_factor);
+  forget_solves();
+  renew_forces();
+}
+
+template <int dim>
+void Body<dim>::forget_solves() {
+  equilibrium_.linear_solver().forget();
+  if (!topology_.bonds().softens()) return;
+  topology_.recount_damage();
+  assemble();
   renew_forces();
 }
 
 template <int dim>
 void Body<dim>::renew_forces() {
+  system_.apply_load(state_.load_factor);
   system_.evaluate(displacement());
-  work_.go_on_from(displacement(), system_.internal_force());
+  work_.go_on_from(displacement(), system_.internal_force(), power_of_supports(), state_.load_step);
 }
 
 template <int dim>

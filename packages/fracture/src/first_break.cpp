@@ -10,14 +10,14 @@ namespace perimorph::fracture {
 
 namespace {
 
-/// The largest stretch over the critical one among the bonds that may break, of all ranks; 0 if none reaches the
+/// The largest stretch over its limit among the bonds that may break or soften, of all ranks; 0 if none reaches the
 /// threshold. Collective.
 template <int dim>
 double largest_ratio(const base::Comm& comm, const Body<dim>& body, double factor, double threshold) {
   auto u = body.system().at_points().displacement;
   for (auto& one : u) one *= factor;
   const auto& topology = body.topology();
-  const auto ratios = topology.bonds().overstretches(u, body.critical_stretches(), topology.classes(), threshold);
+  const auto ratios = topology.bonds().overstretches(u, topology.classes(), threshold);
   const auto largest = std::max_element(ratios.begin(), ratios.end());
   return base::max(comm, largest == ratios.end() ? 0. : *largest);
 }
@@ -26,8 +26,9 @@ double largest_ratio(const base::Comm& comm, const Body<dim>& body, double facto
 
 template <int dim>
 double load_of_first_break(const base::Comm& comm, const Body<dim>& body) {
-  PERIMORPH_ASSERT(body.critical_stretches().smallest() > 0. && body.load_factor() != 0.,
-                   "critical stretch {} at load factor {}", body.critical_stretches().smallest(), body.load_factor());
+  const double limit = body.topology().bonds().materials().smallest_limit();
+  PERIMORPH_ASSERT(limit > 0. && body.load_factor() != 0., "critical stretch {} at load factor {}", limit,
+                   body.load_factor());
   double largest = 0.;
   for (double threshold = 1.; largest == 0. && threshold > 1e-12; threshold /= 8.) {
     largest = largest_ratio(comm, body, 1., threshold);

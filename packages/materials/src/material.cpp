@@ -10,13 +10,6 @@ namespace perimorph::materials {
 namespace {
 
 template <int dim>
-double energy_of_bonds(const Micromodulus& one, const Micromodulus& other) {
-  const auto at = [&](double r) { return harmonic_mean(one(r), other(r)) * std::pow(r, dim + 4); };
-  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(at, 0., one.horizon) *
-         (dim == 2 ? 1. : boost::math::constants::half_pi<double>());
-}
-
-template <int dim>
 double energy_of_dilatation(const Material<dim>& material) {
   const double with = fracture_energy<dim>(material.micromodulus, 1., material.dilatational_ratio);
   return with - fracture_energy<dim>(material.micromodulus, 1.);
@@ -32,11 +25,19 @@ Material<dim> elastic_material(ElasticModel model, double youngs_modulus, double
 }
 
 template <int dim>
+double energy_of_bonds(const Material<dim>& one, const Material<dim>& other) {
+  const auto at = [&](double r) {
+    return harmonic_mean(one.micromodulus(r), other.micromodulus(r)) * std::pow(r, dim + 4);
+  };
+  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(at, 0., one.micromodulus.horizon) *
+         (dim == 2 ? 1. : boost::math::constants::half_pi<double>());
+}
+
+template <int dim>
 double fracture_energy(const Material<dim>& one, const Material<dim>& other, double critical_stretch) {
   PERIMORPH_ASSERT(critical_stretch >= 0., "a critical stretch of {}", critical_stretch);
   const double of_dilatation = 0.5 * (energy_of_dilatation(one) + energy_of_dilatation(other));
-  return critical_stretch * critical_stretch *
-         (energy_of_bonds<dim>(one.micromodulus, other.micromodulus) + of_dilatation);
+  return critical_stretch * critical_stretch * (energy_of_bonds(one, other) + of_dilatation);
 }
 
 template <int dim>
@@ -49,7 +50,13 @@ template <int dim>
 Toughness perfect_interface(const Material<dim>& one, const Material<dim>& other) {
   Toughness toughness =
       one.toughness.fracture_energy <= other.toughness.fracture_energy ? one.toughness : other.toughness;
-  if (toughness.breaks()) toughness.critical_stretch = critical_stretch(one, other, toughness.fracture_energy);
+  if (!toughness.breaks()) return toughness;
+  if (toughness.law.softens()) {
+    const double area = 0.5 * toughness.fracture_energy / energy_of_bonds(one, other);
+    toughness.law = toughness.law.scaled(std::sqrt(area / toughness.law.area()));
+  } else {
+    toughness.law = critical_stretch(one, other, toughness.fracture_energy);
+  }
   return toughness;
 }
 
@@ -57,7 +64,8 @@ Toughness perfect_interface(const Material<dim>& one, const Material<dim>& other
   template Material<dim> elastic_material(ElasticModel, double, double, double, double); \
   template double fracture_energy(const Material<dim>&, const Material<dim>&, double);   \
   template double critical_stretch(const Material<dim>&, const Material<dim>&, double);  \
-  template Toughness perfect_interface(const Material<dim>&, const Material<dim>&);
+  template Toughness perfect_interface(const Material<dim>&, const Material<dim>&);      \
+  template double energy_of_bonds(const Material<dim>&, const Material<dim>&);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

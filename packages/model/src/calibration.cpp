@@ -80,11 +80,13 @@ double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const P
 
 namespace {
 
+/// Softening spreads over many elements, which hold nothing up.
 void make_up_for(double resistance, materials::Toughness& toughness) {
+  if (toughness.law.softens()) return;
   if (toughness.is_stretch_given) {
     toughness.fracture_energy *= resistance * resistance;
   } else {
-    toughness.critical_stretch /= resistance;
+    toughness.law = toughness.law.scaled(1. / resistance);
   }
 }
 

@@ -12,6 +12,13 @@ bool Problem<dim>::breaks() const {
 }
 
 template <int dim>
+bool Problem<dim>::softens() const {
+  const auto is_soft = [](const auto& of) { return of.toughness.law.softens(); };
+  return std::any_of(materials.begin(), materials.end(), is_soft) ||
+         std::any_of(interfaces.begin(), interfaces.end(), is_soft);
+}
+
+template <int dim>
 std::vector<int> materials_of_elements(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
   std::vector<int> of_block;
   for (const auto& name : mesh.block_names) {
@@ -24,15 +31,18 @@ std::vector<int> materials_of_elements(const mesh::Mesh<dim>& mesh, const Proble
 }
 
 template <int dim>
-bonds::CriticalStretches critical_stretches(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
+materials::BondMaterials bond_materials(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
   const std::size_t n = problem.materials.size();
-  if (n == 1) return problem.materials[0].toughness.critical_stretch;
-  std::vector<double> by_pair(n * n);
-  for (std::size_t m = 0; m < n; ++m) by_pair[m * n + m] = problem.materials[m].toughness.critical_stretch;
-  for (const auto& [first, second, toughness] : problem.interfaces) {
-    by_pair[first * n + second] = by_pair[second * n + first] = toughness.critical_stretch;
+  std::vector<materials::Micromodulus> micromoduli;
+  std::vector<materials::BondLaw> laws(n * n);
+  for (std::size_t m = 0; m < n; ++m) {
+    micromoduli.push_back(problem.materials[m].micromodulus);
+    laws[m * n + m] = problem.materials[m].toughness.law;
   }
-  return {std::move(by_pair), materials_of_elements(mesh, problem)};
+  for (const auto& [first, second, toughness] : problem.interfaces) {
+    laws[first * n + second] = laws[second * n + first] = toughness.law;
+  }
+  return {std::move(micromoduli), std::move(laws), materials_of_elements(mesh, problem)};
 }
 
 template <int dim>
@@ -45,7 +55,7 @@ mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& w
 #define PERIMORPH_INSTANTIATE(dim)                                                                         \
   template struct Problem<dim>;                                                                            \
   template std::vector<int> materials_of_elements(const mesh::Mesh<dim>&, const Problem<dim>&);            \
-  template bonds::CriticalStretches critical_stretches(const mesh::Mesh<dim>&, const Problem<dim>&);       \
+  template materials::BondMaterials bond_materials(const mesh::Mesh<dim>&, const Problem<dim>&);           \
   template mesh::Mesh<dim> distribute_mesh(const base::Comm&, const mesh::Mesh<dim>&, const Problem<dim>&, \
                                            const std::vector<double>&);
 

@@ -23,11 +23,17 @@ auto first_row(const RowPair& rows) { return rows.head<n_lanes>(); }
 auto second_row(const RowPair& rows) { return rows.tail<n_lanes>(); }
 int count_bits(unsigned mask) { return __builtin_popcount(mask); }
 
-/// c |xi|^4 of a bond, [force length].
+/// c of a bond as far as softening has left it, [force / length^3].
 template <int dim>
-double weight_of(const CoupledModel<dim>& model, const bonds::Bond<dim>& bond) {
+double stiffness_left(const CoupledModel<dim>& model, const bonds::Bond<dim>& bond) {
+  return model.bonds.stiffness(bond) * model.bonds.share_left(bond);
+}
+
+/// What a bond of a stiffness adds to M, c |xi|^4, [force length].
+template <int dim>
+double weight_of(const bonds::Bond<dim>& bond, double stiffness) {
   const double squared_length = bond.xi.squaredNorm();
-  return model.bonds.stiffness(bond) * squared_length * squared_length;
+  return stiffness * squared_length * squared_length;
 }
 
 template <int dim>
@@ -191,7 +197,7 @@ void BondForces<dim>::make_blocks() {
         Block& block = *(from_packet[i / n_lanes].end() - n + j / n_lanes);
         block.mask |= bit(i % n_lanes, j % n_lanes);
         if (bonds.computes_stiffness()) return;
-        block.stiffness[i % n_lanes * n_lanes + j % n_lanes] = static_cast<float>(bonds.stiffness(bond));
+        block.stiffness[i % n_lanes * n_lanes + j % n_lanes] = static_cast<float>(stiffness_left(model_, bond));
       });
     }
     for (const auto& blocks : from_packet) {
@@ -229,7 +235,7 @@ void BondForces<dim>::make_dilatation() {
   stretches_.resize(ids.size());
   model_.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
     if (bond.is_broken) return;
-    const double weight = weight_of(model_, bond);
+    const double weight = weight_of(bond, stiffness_left(model_, bond));
     dilatation_->add(lane_of(bond.first_element, bond.first_end), weight);
     dilatation_->add(lane_of(bond.second_element, bond.second_end), weight);
   });
@@ -390,22 +396,38 @@ void BondForces<dim>::take(const bonds::BondChange& change) {
   for (const auto id : change.broken) {
     const auto bond = model_.bonds.bond(id);
     if (dilatation_) {
-      const double weight = weight_of(model_, bond);
+      const double weight = weight_of(bond, stiffness_left(model_, bond));
       dilatation_->remove(lane_of(bond.first_element, bond.first_end), weight);
       dilatation_->remove(lane_of(bond.second_element, bond.second_end), weight);
     }
-    const int i = bond.first_end, j = bond.second_end;
-    const int a = first_packet_[bond.first_element] + i / n_lanes;
-    const int b = first_packet_[bond.second_element] + j / n_lanes;
-    const unsigned its_bit = bit(i % n_lanes, j % n_lanes);
-    std::size_t block = first_block_[a], position = first_bond_[a];
-    for (; second_[block] != b; ++block) position += count_bits(masks_[block]);
+    const auto [block, position, its_bit] = place_of(bond);
     if (model_.bonds.computes_stiffness()) {
       masks_[block] = static_cast<std::uint16_t>(masks_[block] & ~its_bit);
     } else {
-      stiffness_[position + count_bits(masks_[block] & (its_bit - 1u))] = 0.F;
+      stiffness_[position] = 0.F;
     }
   }
+  for (const auto& [id, stretch, loss] : change.softened) {
+    const auto bond = model_.bonds.bond(id);
+    if (dilatation_) {
+      const double weight = weight_of(bond, model_.bonds.stiffness(bond) * loss);
+      dilatation_->weaken(lane_of(bond.first_element, bond.first_end), weight);
+      dilatation_->weaken(lane_of(bond.second_element, bond.second_end), weight);
+    }
+    PERIMORPH_ASSERT(!model_.bonds.computes_stiffness(), "bond {} softens, but its stiffness is not stored", id);
+    stiffness_[place_of(bond).position] = static_cast<float>(stiffness_left(model_, bond));
+  }
+}
+
+template <int dim>
+typename BondForces<dim>::Place BondForces<dim>::place_of(const bonds::Bond<dim>& bond) const {
+  const int i = bond.first_end, j = bond.second_end;
+  const int a = first_packet_[bond.first_element] + i / n_lanes;
+  const int b = first_packet_[bond.second_element] + j / n_lanes;
+  const unsigned its_bit = bit(i % n_lanes, j % n_lanes);
+  std::size_t block = first_block_[a], position = first_bond_[a];
+  for (; second_[block] != b; ++block) position += count_bits(masks_[block]);
+  return {block, position + count_bits(masks_[block] & (its_bit - 1u)), its_bit};
 }
 
 template <int dim>

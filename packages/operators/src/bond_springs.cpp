@@ -13,10 +13,23 @@ namespace {
 template <int dim>
 using Block = Eigen::Matrix<double, dim, dim>;
 
-/// k xi (x) xi of a bond, as a matrix takes it.
+/// k xi (x) xi of a bond, as a matrix takes it. @param stiffness k, [force / length^3]
 template <int dim>
-Block<dim> spring_in(const StiffnessMatrix<dim>& matrix, const CoupledModel<dim>& model, const bonds::Bond<dim>& bond) {
-  return matrix.selection().scale * model.spring(bond) * bond.xi * bond.xi.transpose();
+Block<dim> spring_in(const StiffnessMatrix<dim>& matrix, const bonds::Bond<dim>& bond, double stiffness) {
+  return matrix.selection().scale * stiffness * bond.xi * bond.xi.transpose();
+}
+
+/// What bonds lose, by ascending bond, as stiffness, [force / length^3].
+template <int dim>
+std::vector<std::pair<bonds::BondId, double>> losses(const CoupledModel<dim>& model, const bonds::BondChange& change) {
+  std::vector<std::pair<bonds::BondId, double>> all;
+  for (const auto b : change.broken) all.emplace_back(b, model.spring(model.bonds.bond(b)));
+  const auto n_broken = static_cast<std::ptrdiff_t>(all.size());
+  for (const auto& [b, stretch, loss] : change.softened) {
+    all.emplace_back(b, loss * model.intact_spring(model.bonds.bond(b)));
+  }
+  std::inplace_merge(all.begin(), all.begin() + n_broken, all.end());
+  return all;
 }
 
 }  // namespace
@@ -52,7 +65,7 @@ void BondForces<dim>::add_to(StiffnessMatrix<dim>& matrix) const {
     bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
       if (bond.is_broken || !matrix.selects(bond.xi)) return;
       if (between.empty()) between.assign(static_cast<std::size_t>(n_first) * n_second, Block<dim>::Zero());
-      const Block<dim> spring = spring_in(matrix, model_, bond);
+      const Block<dim> spring = spring_in(matrix, bond, model_.spring(bond));
       between[bond.first_end * n_second + bond.second_end] = spring;
       at_points[bond.first_point] += spring;
       at_points[bond.second_point] += spring;
@@ -70,21 +83,21 @@ template <int dim>
 void BondForces<dim>::take(const bonds::BondChange& change, StiffnessMatrix<dim>& matrix,
                            std::vector<int>& changed) const {
   const auto& bonds = model_.bonds;
-  const auto& broken = change.broken;
+  const auto lost = losses(model_, change);
   std::array<Block<dim>, elements::max_points> at_first, at_second;
   std::vector<Block<dim>> between;
-  for (std::size_t next = 0; next < broken.size();) {
-    const int p = bonds.pair_of(broken[next]);
+  for (auto next = lost.begin(); next != lost.end();) {
+    const int p = bonds.pair_of(next->first);
     const auto& pair = bonds.pair(p);
     const int n_first = model_.points.count(pair.first), n_second = model_.points.count(pair.second);
     between.clear();
     std::fill_n(at_first.begin(), n_first, Block<dim>::Zero());
     std::fill_n(at_second.begin(), n_second, Block<dim>::Zero());
-    for (; next < broken.size() && broken[next] < bonds.first_bond(p + 1); ++next) {
-      const auto bond = bonds.bond(p, broken[next]);
+    for (; next != lost.end() && next->first < bonds.first_bond(p + 1); ++next) {
+      const auto bond = bonds.bond(p, next->first);
       if (!matrix.selects(bond.xi)) continue;
       if (between.empty()) between.assign(static_cast<std::size_t>(n_first) * n_second, Block<dim>::Zero());
-      const Block<dim> spring = spring_in(matrix, model_, bond);
+      const Block<dim> spring = spring_in(matrix, bond, next->second);
       between[bond.first_end * n_second + bond.second_end] = -spring;
       at_first[bond.first_end] -= spring;
       at_second[bond.second_end] -= spring;

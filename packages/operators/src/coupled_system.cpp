@@ -112,7 +112,7 @@ std::vector<int> CoupledSystem<dim>::take(const bonds::BondChange& change) {
   if (matrix_) changed = matrix_->take(change);
   if (short_range_) changed = short_range_->take(change);
   if (elasticity_.has_dilatation()) has_forces_ = false;
-  if (has_forces_) subtract_bond_forces(model(), change.broken, at_points_, internal_);
+  if (has_forces_) subtract_lost_forces(model(), change, at_points_, internal_);
   return changed;
 }
 
@@ -152,6 +152,19 @@ NonlinearSystem::Norms CoupledSystem<dim>::residual(Vector& residual) const {
   }
   base::sum(comm_, squares);
   return {std::sqrt(squares[0]), std::sqrt(squares[1])};
+}
+
+template <int dim>
+NonlinearSystem::Norms CoupledSystem<dim>::imbalance_after(const bonds::BondChange& change) const {
+  Vector now(unknowns());
+  const double reaction = residual(now).reaction;
+  std::vector<double> lost(space_->n_owned(), 0.);
+  subtract_lost_forces(model(), change, at_points_, lost);
+  double squares = 0.;
+  for (int dof = 0; dof < static_cast<int>(lost.size()); ++dof) {
+    if (!space_->is_prescribed(dof)) squares += lost[dof] * lost[dof];
+  }
+  return {std::sqrt(base::sum(comm_, squares)), reaction};
 }
 
 template <int dim>

@@ -32,9 +32,13 @@ void Dilatation::add(std::size_t point, double weight) {
 }
 
 void Dilatation::remove(std::size_t point, double weight) {
+  weaken(point, weight);
+  --n_bonds_[point];
+}
+
+void Dilatation::weaken(std::size_t point, double weight) {
   PERIMORPH_DEBUG_ASSERT(point < n_bonds_.size() && n_bonds_[point] > 0, "point {} has no bond left", point);
   weighted_volumes_[point] -= weight;
-  --n_bonds_[point];
 }
 
 void Dilatation::to_stretch(std::vector<double>& sums) const {

@@ -11,6 +11,7 @@ using base::GlobalId;
 using discretization::BrokenBond;
 using discretization::FlagPoint;
 using discretization::SavedState;
+using discretization::SoftBond;
 
 namespace {
 
@@ -20,13 +21,16 @@ constexpr const char* displacement_name = "displacement";
 template <class DataSets, class State, class Flag>
 void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
   auto& counts = state.counts;
-  sets.numbers("body", state.load_factor, state.force_scale, state.energies.dissipated, state.energies.external_work);
+  sets.numbers("body", state.load_factor, state.load_step, state.force_scale, state.energies.dissipated,
+               state.energies.external_work);
   sets.integers("body_counts", counts.broken_bonds, counts.damaged_elements, counts.dgfe_elements, counts.unknowns,
                 counts.linear_solves, counts.cg_iterations, counts.topologies, state.break_calls,
                 state.break_calls_before_topology);
   sets.records("flagged_elements", state.flag_points, &Flag::element, &Flag::growth);
   sets.arrays("flag_points", state.flag_points, &Flag::centroid);
   sets.records("broken_bonds", state.broken, &BrokenBond::first, &BrokenBond::second, &BrokenBond::call);
+  sets.records("softened_bonds", state.softened, &SoftBond::first, &SoftBond::second);
+  sets.arrays("largest_stretches", state.softened, &SoftBond::largest_stretches);
 }
 
 /// Every rank's elements' values out of those of all elements, which rank 0 has. Collective.
@@ -60,6 +64,7 @@ io::Checkpoint gather_state(const base::Comm& comm, const SavedState<dim>& state
   constexpr auto stride = static_cast<std::size_t>(SavedState<dim>::values_per_element);
   SavedState<dim> whole = state;
   whole.broken = base::gather_on_root(comm, state.broken);
+  whole.softened = base::gather_on_root(comm, state.softened);
   const auto ids = base::gather_on_root(comm, owned_elements);
   const auto values = base::gather_on_root(comm, state.displacement);
   io::Checkpoint checkpoint;

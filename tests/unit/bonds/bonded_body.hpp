@@ -30,21 +30,21 @@ struct BondedBody {
 
   /// tau0 = 100; without zones there are no bonds yet: grow() makes them.
   BondedBody(const mesh::Mesh<2>& whole_mesh, double horizon, double characteristic_length,
-             std::vector<Segment> cracks = {})
+             std::vector<Segment> cracks = {}, const materials::BondLaw& law = {})
       : whole(whole_mesh),
         pre_cracks(std::move(cracks)),
         c0{100., characteristic_length, horizon},
         mesh(mesh::distribute(*comm, whole, horizon)),
         points(mesh),
         alpha(mesh, points, morphing::BlendingFunction::linear),
-        bonds(mesh, points, mesh::active_elements(mesh), c0, pre_cracks) {}
+        bonds(mesh, points, mesh::active_elements(mesh), {c0, law}, pre_cracks) {}
 
   void grow(const std::vector<Zone<2>>& zones) { bonds.extend(alpha.add(zones)); }
 
   /// Returns the bonds that it breaks.
-  std::vector<std::size_t> break_overstretched(const std::vector<Point2>& displacements, double critical_stretch,
+  std::vector<std::size_t> break_overstretched(const std::vector<Point2>& displacements,
                                                const std::vector<morphing::ElementClass>& classes) {
-    const auto broken = bonds.overstretched(displacements, critical_stretch, classes);
+    const auto broken = bonds.overstretched(displacements, classes);
     bonds.take({broken});
     return broken;
   }

@@ -15,7 +15,7 @@ constexpr double critical_stretch = 0.02;
 
 class Breaking : public testing::Test {
  protected:
-  BondedBody body{grid({7, 6, 7., 6., Point2::Zero(), 0.1}), 2.3, 0.6};
+  BondedBody body{grid({7, 6, 7., 6., Point2::Zero(), 0.1}), 2.3, 0.6, {}, critical_stretch};
   std::vector<ElementClass> classes = std::vector<ElementClass>(body.mesh.n_elements(), ElementClass::pd);
 
   void SetUp() override { body.grow({Zone<2>::everything()}); }
@@ -38,11 +38,11 @@ class Breaking : public testing::Test {
 
 TEST_F(Breaking, NoBondBreaksJustBelowTheCriticalStretch) {
   // 1e-9 of the stretch is far above the rounding of (1 + s)^2, 1e-16 / 0.02.
-  EXPECT_TRUE(body.break_overstretched(widened(critical_stretch * (1. - 1e-9)), critical_stretch, classes).empty());
+  EXPECT_TRUE(body.break_overstretched(widened(critical_stretch * (1. - 1e-9)), classes).empty());
 }
 
 TEST_F(Breaking, EveryBondBetweenElementsBreaksJustAboveTheCriticalStretch) {
-  const auto broken = body.break_overstretched(widened(critical_stretch * (1. + 1e-9)), critical_stretch, classes);
+  const auto broken = body.break_overstretched(widened(critical_stretch * (1. + 1e-9)), classes);
 
   EXPECT_EQ(broken.size(), n_between_elements());
   EXPECT_TRUE(std::is_sorted(broken.begin(), broken.end()));
@@ -61,15 +61,15 @@ TEST_F(Breaking, ThoseBreakWhoseDeformedLengthReachesTheCriticalOne) {
   ASSERT_GT(expected.size(), 100u);
   ASSERT_LT(expected.size(), n_between_elements() - 100u);
 
-  EXPECT_EQ(body.break_overstretched(deformed(gradient), critical_stretch, classes), expected);
+  EXPECT_EQ(body.break_overstretched(deformed(gradient), classes), expected);
 }
 
 TEST_F(Breaking, StretchesOverTheCriticalOneAreToldInOrderOfBondsAndBreakNothing) {
   Eigen::Matrix2d gradient;
   gradient << 1.03, 0.01, -0.02, 0.99;
-  const auto stretches = body.bonds.overstretches(deformed(gradient), critical_stretch, classes);
+  const auto stretches = body.bonds.overstretches(deformed(gradient), classes);
 
-  const auto broken = body.break_overstretched(deformed(gradient), critical_stretch, classes);
+  const auto broken = body.break_overstretched(deformed(gradient), classes);
 
   ASSERT_EQ(stretches.size(), broken.size());
   std::size_t next = 0;
@@ -83,24 +83,22 @@ TEST_F(Breaking, StretchesOverTheCriticalOneAreToldInOrderOfBondsAndBreakNothing
 }
 
 TEST_F(Breaking, ARotationAndACompressionBreakNothing) {
-  EXPECT_TRUE(
-      body.break_overstretched(deformed(Eigen::Rotation2D<double>(0.7).toRotationMatrix()), critical_stretch, classes)
-          .empty());
-  EXPECT_TRUE(body.break_overstretched(widened(-0.5), critical_stretch, classes).empty());
+  EXPECT_TRUE(body.break_overstretched(deformed(Eigen::Rotation2D<double>(0.7).toRotationMatrix()), classes).empty());
+  EXPECT_TRUE(body.break_overstretched(widened(-0.5), classes).empty());
 }
 
 TEST_F(Breaking, ABrokenBondStaysBrokenAndIsReportedOnce) {
-  const auto broken = body.break_overstretched(widened(0.03), critical_stretch, classes);
+  const auto broken = body.break_overstretched(widened(0.03), classes);
   ASSERT_FALSE(broken.empty());
 
-  EXPECT_TRUE(body.break_overstretched(widened(0.), critical_stretch, classes).empty());
-  EXPECT_TRUE(body.break_overstretched(widened(0.04), critical_stretch, classes).empty());
+  EXPECT_TRUE(body.break_overstretched(widened(0.), classes).empty());
+  EXPECT_TRUE(body.break_overstretched(widened(0.04), classes).empty());
 
   for (const auto b : broken) EXPECT_TRUE(body.bonds.broken(b));
 }
 
 TEST_F(Breaking, BondsInsideOneElementNeverBreak) {
-  body.break_overstretched(widened(1.), critical_stretch, classes);
+  body.break_overstretched(widened(1.), classes);
 
   body.for_each_bond([&](int p, std::size_t b) {
     EXPECT_EQ(body.bonds.broken(b), body.bonds.pair(p).first != body.bonds.pair(p).second);
@@ -110,7 +108,7 @@ TEST_F(Breaking, BondsInsideOneElementNeverBreak) {
 TEST_F(Breaking, BondsThatTouchAnElementOutsideThePeridynamicClassNeverBreak) {
   for (std::size_t e = 0; e < classes.size(); e += 3) classes[e] = e % 2 == 0 ? ElementClass::morph : ElementClass::fe;
 
-  const auto broken = body.break_overstretched(widened(1.), critical_stretch, classes);
+  const auto broken = body.break_overstretched(widened(1.), classes);
 
   ASSERT_FALSE(broken.empty());
   body.for_each_bond([&](int p, std::size_t b) {
@@ -144,7 +142,7 @@ TEST_F(Breaking, DamageIsZeroWhereNothingBrokeAndBelowOneWhereEverythingBetweenE
   EXPECT_EQ(body.bonds.damage(0), 0.);
   EXPECT_FALSE(body.bonds.is_damaged(0));
 
-  body.break_overstretched(widened(1.), critical_stretch, classes);
+  body.break_overstretched(widened(1.), classes);
 
   for (int i = 0; i < body.points.size(); ++i) {
     EXPECT_GT(body.bonds.damage(i), 0.7);  // the element's own three other points hold it together
@@ -167,9 +165,9 @@ TEST_F(Breaking, ABondBreaksOnceAndNeverWithinAnElement) {
 
 TEST_F(Breaking, RefusesFieldsThatAreNotOfThisMesh) {
   const auto u = widened(0.03);
-  EXPECT_THROW(body.bonds.overstretched({u.begin(), u.end() - 1}, critical_stretch, classes), base::Bug);
-  EXPECT_THROW(body.bonds.overstretched(u, critical_stretch, {ElementClass::pd}), base::Bug);
-  EXPECT_THROW(body.bonds.overstretched(u, -0.01, classes), base::Bug);
+  EXPECT_THROW(body.bonds.overstretched({u.begin(), u.end() - 1}, classes), base::Bug);
+  EXPECT_THROW(body.bonds.overstretched(u, {ElementClass::pd}), base::Bug);
+  EXPECT_THROW(body.bonds.overstretched(u, classes, -0.01), base::Bug);
   EXPECT_THROW(body.bonds.extend({body.mesh.n_elements()}), base::Bug);
   EXPECT_THROW(body.bonds.find(-1, 0, 0, 0), base::Bug);
 }

@@ -142,6 +142,8 @@ TEST_F(Topology, ABondThatIsNotThereIsTheUsersMistake) {
   saved.counts.broken_bonds = 1;
   saved.broken = {{0, 100000, 1}};
   EXPECT_THROW(discretization::find_broken(*comm, saved, topology), base::UserError);
+  saved.softened = {{0, 100000, {0.1, 0.2}}};
+  EXPECT_THROW(discretization::find_softened(*comm, saved, topology), base::UserError);
 }
 
 TEST_F(Topology, CannotBeUpdatedBeforeItsZonesAreThere) {

@@ -35,20 +35,25 @@ TEST(Interface, IsAsToughAsTheLessToughMaterialIfItIsPerfect) {
   for (const auto* other : {&tough, &steel}) {
     const auto toughness = perfect_interface(tender, *other);
     EXPECT_EQ(toughness.fracture_energy, 0.1);
-    EXPECT_NEAR(fracture_energy(tender, *other, toughness.critical_stretch), 0.1, 1e-15);
+    EXPECT_NEAR(fracture_energy(tender, *other, toughness.critical_stretch()), 0.1, 1e-15);
   }
   EXPECT_FALSE(perfect_interface(steel, steel).breaks());
 }
 
 TEST(BondMaterials, HaveTheHarmonicMeanBetweenTwo) {
   const Micromodulus one{2., 0.3, 3.}, other{5., 0.4, 3.};
-  const BondMaterials both({one, other}, {0, 1, 1});
+  const std::vector<BondLaw> four = {0.01, 0.03, 0.03, 0.02};
+  const BondMaterials both({one, other}, four, {0, 1, 1});
   EXPECT_EQ(both.stiffness(0, 0, 1.), one(1.));
   EXPECT_EQ(both.stiffness(1, 2, 1.), other(1.));
   EXPECT_DOUBLE_EQ(both.stiffness(0, 1, 1.), 2. * one(1.) * other(1.) / (one(1.) + other(1.)));
   EXPECT_EQ(both.stiffness(0, 1, 3.1), 0.);  // beyond the horizon
-  EXPECT_THROW(BondMaterials({one, {5., 0.4, 2.}}, {0, 1}), base::Bug);
-  EXPECT_THROW(BondMaterials({one, other}, {2}), base::Bug);
+  EXPECT_EQ(both.law(1, 2).limit(), 0.02);
+  EXPECT_EQ(both.law(2, 0).limit(), 0.03);
+  EXPECT_EQ(both.smallest_limit(), 0.01);
+  EXPECT_THROW(BondMaterials({one, {5., 0.4, 2.}}, four, {0, 1}), base::Bug);
+  EXPECT_THROW(BondMaterials({one, other}, four, {2}), base::Bug);
+  EXPECT_THROW(BondMaterials({one, other}, {0.01}, {0, 1}), base::Bug);
 }
 
 }  // namespace

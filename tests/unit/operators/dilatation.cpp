@@ -62,7 +62,7 @@ std::map<base::GlobalId, Point2> forces_by_formulas(const CoupledBody& body, dou
   };
   body.bonds.for_each_bond([&](const bonds::Bond<2>& bond) {
     if (bond.is_broken) return;
-    const double c = body.bonds.stiffness(bond), squared = bond.xi.squaredNorm();
+    const double c = body.bonds.stiffness(bond) * body.bonds.share_left(bond), squared = bond.xi.squaredNorm();
     for (const int point : {bond.first_point, bond.second_point}) {
       s[point] += c * mean_alpha(bond) * squared * elongation(bond);
       m[point] += c * squared * squared;
@@ -79,8 +79,7 @@ std::map<base::GlobalId, Point2> forces_by_formulas(const CoupledBody& body, dou
     if (bond.is_broken) return;
     const int i = bond.first_point, j = bond.second_point;
     const double g_s = factor * (s[i] / m[i] + s[j] / m[j]);
-    const Point2 pull =
-        body.bonds.stiffness(bond) * mean_alpha(bond) * (elongation(bond) + bond.xi.squaredNorm() * g_s) * bond.xi;
+    const Point2 pull = body.model().spring(bond) * (elongation(bond) + bond.xi.squaredNorm() * g_s) * bond.xi;
     add(bond.first_element, bond.first_end, -pull);
     add(bond.second_element, bond.second_end, pull);
   });
@@ -123,6 +122,21 @@ INSTANTIATE_TEST_SUITE_P(Ratios, Dilatation,
                          ::testing::Combine(::testing::Values(-0.2, 0.2, 0.45),
                                             ::testing::Values(StiffnessStorage::stored, StiffnessStorage::on_the_fly),
                                             ::testing::Bool()));
+
+TEST(DilatationOfBonds, FollowsTheirSoftening) {
+  tests::Setup setup = zone_in_the_middle(0.2);
+  setup.law = soft_law();
+  const double factor = materials::dilatational_ratio(CoupledBody::elastic_model, 0.2) / 4.;
+  CoupledBody shared(setup), alone(setup, Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)));
+  const auto terms = terms_of(shared);
+  for (const double share : {0.05, 0.2}) {
+    const auto change = shared.soften_each(3, share);
+    for (const auto& term : terms) term->take(change);
+    alone.soften_each(3, share);
+    expect_the_same(forces(shared, terms), forces_by_formulas(alone, factor));
+  }
+  expect_the_same(forces(shared, terms_of(shared)), forces_by_formulas(alone, factor));
+}
 
 TEST(DilatationOfBonds, IsNotThereWhereBondsAloneCarry) {
   const CoupledBody body(zone_in_the_middle(1. / 3.)), other(zone_in_the_middle(0.3));

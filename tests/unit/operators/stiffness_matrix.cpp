@@ -118,6 +118,38 @@ TEST_P(StiffnessMatrix, NamesAllNodesWhoseRowsBrokenBondsChange) {
   EXPECT_EQ(changed, std::set<int>(named.begin(), named.end()));
 }
 
+/// Some soften twice, and some of these break.
+TEST(StiffnessOfSoftBonds, FollowsThemInTheMatrixAndWithoutOne) {
+  tests::Setup setup = hybrid(PeridynamicStiffness::dropped, false);
+  setup.law = soft_law();
+  CoupledBody body(setup);
+  const double intact = body.dense().trace();
+  body.soften_each(3, 0.05);
+  body.make_matrix();
+  const double softened = body.dense().trace();
+  EXPECT_LT(softened, 0.98 * intact);
+  const auto terms = body.terms();
+  const auto matrix_free = body.tangent(terms);
+  const auto take = [&](const bonds::BondChange& change) {
+    body.stiffness->take(change);
+    for (const auto& term : terms) term->take(change);
+  };
+  take(body.soften_each(3, 0.2));
+  take({body.break_each(6)});
+  const Eigen::MatrixXd updated = body.dense();
+  EXPECT_LT(updated.trace(), 0.99 * softened);
+
+  Tpetra::Vector<double> x(body.dofs->owned_dofs()), product(x.getMap()), same(x.getMap());
+  x.randomize();
+  body.stiffness->matrix()->apply(x, product);
+  matrix_free.apply(x, same);
+  same.update(-1., product, 1.);
+  EXPECT_LT(same.norm2(), 1e-6 * product.norm2());  // bonds in single precision
+
+  body.make_matrix();
+  EXPECT_LT((updated - body.dense()).cwiseAbs().maxCoeff(), 1e-13 * updated.cwiseAbs().maxCoeff());
+}
+
 INSTANTIATE_TEST_SUITE_P(Policies, StiffnessMatrix,
                          ::testing::Combine(::testing::Values(PeridynamicStiffness::dropped,
                                                               PeridynamicStiffness::kept),

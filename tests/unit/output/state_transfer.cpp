@@ -19,6 +19,7 @@ using testing::ElementsAre;
 SavedState<2> history() {
   SavedState<2> state;
   state.load_factor = 1.5;
+  state.load_step = 0.75;
   state.force_scale = 2.5;
   state.energies = {0., 3.5, 4.5};
   state.counts.broken_bonds = 11;
@@ -54,6 +55,7 @@ struct Parts {
     auto state = state_of(owned);
     const GlobalId rank = comm->getRank();
     state.broken = {{rank, rank + 1, rank + 2}};
+    state.softened = {{rank, rank + 10, {0.25, 0.5}}};
     return output::gather_state(*comm, state, owned);
   }
 };
@@ -65,8 +67,12 @@ TEST(StateTransfer, GivesEachRankTheDisplacementOfItsElementsAndAllElse) {
   EXPECT_EQ(shared.displacement, state_of(parts.mesh.element_ids).displacement);
   ASSERT_EQ(shared.broken.size(), static_cast<std::size_t>(parts.comm->getSize()));
   EXPECT_EQ(shared.broken.back().call, parts.comm->getSize() + 1);
+  ASSERT_EQ(shared.softened.size(), shared.broken.size());
+  EXPECT_EQ(shared.softened.back().second, parts.comm->getSize() + 9);
+  EXPECT_THAT(shared.softened.back().largest_stretches, ElementsAre(0.25, 0.5));
   const auto expected = history();
   EXPECT_EQ(shared.load_factor, expected.load_factor);
+  EXPECT_EQ(shared.load_step, expected.load_step);
   EXPECT_EQ(shared.energies.external_work, expected.energies.external_work);
   EXPECT_EQ(shared.counts.topologies, expected.counts.topologies);
   EXPECT_EQ(shared.break_calls_before_topology, expected.break_calls_before_topology);
@@ -82,11 +88,13 @@ TEST(StateTransfer, DataSetsHaveTheirOrder) {
     EXPECT_TRUE(gathered.numbers.empty());
     return;
   }
-  EXPECT_THAT(gathered.numbers.at("body"), ElementsAre(1.5, 2.5, 3.5, 4.5));
+  EXPECT_THAT(gathered.numbers.at("body"), ElementsAre(1.5, 0.75, 2.5, 3.5, 4.5));
   EXPECT_THAT(gathered.integers.at("body_counts"), ElementsAre(11, 12, 13, 14, 15, 16, 17, 18, 19));
   EXPECT_THAT(gathered.integers.at("flagged_elements"), ElementsAre(21, 1, 22, 2));
   EXPECT_THAT(gathered.numbers.at("flag_points"), ElementsAre(0.25, 0.5, 0.75, 1.));
   EXPECT_EQ(gathered.integers.at("broken_bonds").size(), 3u * parts.comm->getSize());
+  EXPECT_EQ(gathered.integers.at("softened_bonds").size(), 2u * parts.comm->getSize());
+  EXPECT_EQ(gathered.numbers.at("largest_stretches").size(), 2u * parts.comm->getSize());
   const auto& displacement = gathered.numbers.at("displacement");
   ASSERT_EQ(displacement.size(), 32u * SavedState<2>::values_per_element);
   EXPECT_EQ(displacement[5 * SavedState<2>::values_per_element + 3], value(5, 3));

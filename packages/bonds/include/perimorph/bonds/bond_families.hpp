@@ -6,7 +6,6 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/bonds/bond.hpp"
 #include "perimorph/bonds/bond_change.hpp"
-#include "perimorph/bonds/critical_stretches.hpp"
 #include "perimorph/bonds/visibility.hpp"
 #include "perimorph/materials/bond_materials.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
@@ -30,7 +29,7 @@ class BondFamilies {
   /// No bonds yet: extend() adds them. Local. Mesh and points must outlive this.
   /// @param points of that mesh
   /// @param active per element, (n_elements): whether it is around a node that this rank owns (mesh::active_elements)
-  /// @param materials the stiffness of bonds by their ends and length, and the horizon
+  /// @param materials the stiffness of bonds by their ends and length, their laws, and the horizon
   /// @param pre_cracks facets that no bond crosses, the same on all ranks, (n), [length]
   /// @param kept whether stiffnesses are stored or computed from the points each time
   BondFamilies(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, std::vector<char> active,
@@ -74,18 +73,29 @@ class BondFamilies {
   /// Points at the bond's ends, counted within their elements.
   int first_end(BondId b) const { return (ends_of(b) & ~broken_bit) / elements::max_points; }
   int second_end(BondId b) const { return (ends_of(b) & ~broken_bit) % elements::max_points; }
-  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha and breaking; in single
-  /// precision, so that every form of the operator has the same bonds.
+  /// c0(|xi|) w_x w_p, [force / length^3]: the spring's stiffness along xi (x) xi, before alpha, softening and
+  /// breaking; in single precision, so that every form of the operator has the same bonds.
   double stiffness(const Bond<dim>& bond) const {
     PERIMORPH_DEBUG_ASSERT(bond.id < n_bonds(), "bond {} of {}", bond.id, n_bonds());
     return computes_stiffness() ? stiffness_on_the_fly(bond) : stiffness_[bond.id];
+  }
+  /// Share of it that softening has left; of a broken bond when it broke; [-].
+  double share_left(const Bond<dim>& bond) const {
+    if (!softens_) return 1.;
+    return materials_.law(bond.first_element, bond.second_element).share_left(softening_[bond.id].largest);
+  }
+  bool softens() const { return softens_; }
+  /// Of a bond that may soften: 0 where it never has; when it broke, the critical one as soon as that is accepted.
+  const SofteningHistory& softening(BondId b) const {
+    PERIMORPH_DEBUG_ASSERT(b < softening_.size(), "bond {} of {}", b, softening_.size());
+    return softening_[b];
   }
   bool computes_stiffness() const { return kept_ == StiffnessStorage::on_the_fly; }
   const materials::BondMaterials& materials() const { return materials_; }
   bool broken(BondId b) const { return (ends_of(b) & broken_bit) != 0; }
   int pair_of(BondId b) const;
 
-  /// [bytes] of memory, most of it 6 bytes a bond; 2 if stiffness is computed on the fly.
+  /// [bytes] of memory, most of it 6 bytes a bond; 2 if stiffness is computed on the fly; 8 more if bonds soften.
   std::size_t bytes() const;
 
   /// The bond between two points of different elements, each given by element and number within it; n_bonds() if this
@@ -94,14 +104,15 @@ class BondFamilies {
   /// @param first_end,second_end 0 ... number of the element's points - 1
   BondId find(int first, int first_end, int second, int second_end) const;
 
-  /// Share of a point's bonds, by volume, that are broken (Silling and Askari 2005). For active elements.
+  /// Share of a point's bonds, by volume, that are broken (Silling and Askari 2005), or of what they were that
+  /// softening has taken. For active elements.
   /// @param point local material point
   /// @return 0 ... 1 [-]
   double damage(int point) const {
     PERIMORPH_DEBUG_ASSERT(point >= 0 && point < points_.size(), "point {} of {}", point, points_.size());
     return lost_volume_[point] / std::max(family_volume_[point], 1e-300);
   }
-  /// Whether a bond of the element has broken. For active elements.
+  /// Whether a bond of the element has broken or softened. For active elements.
   bool is_damaged(int element) const {
     PERIMORPH_DEBUG_ASSERT(mesh_.has_element(element), "element {} of {}", element, mesh_.n_elements());
     return damaged_[element];
@@ -114,23 +125,40 @@ class BondFamilies {
   /// @param alpha at the points that the bonds join
   Extremes neighbourhood_extremes(const morphing::MorphingField<dim>& alpha) const;
 
-  /// The intact bonds whose stretch reaches their critical one [WHL19, eq. 6, 7], between two different elements that
+  /// The unbroken bonds whose stretch reaches their critical one [WHL19, eq. 6, 7], between two different elements that
   /// both may break, ascending. Local: every rank that holds a bond decides alike.
   /// @param displacements at the points, (n_points), [length]; only those of elements with bonds are read
   /// @param classes by local element, (n_elements): those of PD may break
   /// @param ratio of the critical stretches from which bonds count, >= 0, [-]
   std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements,
-                                    const CriticalStretches& critical,
                                     const std::vector<morphing::ElementClass>& classes, double ratio = 1.) const;
 
-  /// Their stretches over their critical ones, (n), [-]; those of which this rank owns the first element, so that each
-  /// comes from one rank. Arguments as there. Local.
+  /// Stretches over the limits of the laws, of those bonds that reach a ratio of them, (n), [-]; those of which this
+  /// rank owns the first element, so that each comes from one rank. Arguments as there. Local.
   std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements,
-                                    const CriticalStretches& critical,
                                     const std::vector<morphing::ElementClass>& classes, double ratio = 1.) const;
 
-  /// Marks bonds as broken: intact ones, between two different elements. Local.
+  /// The bonds whose softening differs from what it was, without breaking. Arguments as there. Local.
+  /// @param may_recover whether they may take back what is not accepted
+  std::vector<SoftenedBond> softened(const std::vector<base::Point<dim>>& displacements,
+                                     const std::vector<morphing::ElementClass>& classes, bool may_recover) const;
+
+  /// Marks bonds as broken or softened: unbroken ones, between two different elements. Local.
   void take(const BondChange& change);
+
+  /// What has softened is not taken back any more. Local.
+  void accept_softening();
+
+  /// Softening that comes from elsewhere, after what is broken; the bonds without a history have none, or broke before.
+  /// Local.
+  void restore(const std::vector<std::pair<BondId, SofteningHistory>>& histories);
+
+  /// Elements of bonds that have softened are damaged from now on. Local.
+  void note_softening();
+  void note_damage(int element) { damaged_[element] = 1; }
+
+  /// The damage of points no longer depends on the order in which bonds softened. Local.
+  void recount_damage();
 
  private:
   const mesh::Mesh<dim>& mesh_;
@@ -138,6 +166,7 @@ class BondFamilies {
   std::vector<char> active_;
   materials::BondMaterials materials_;
   StiffnessStorage kept_;
+  bool softens_;
   Visibility<dim> visibility_;
   std::vector<base::Point<dim>> centroids_;
   std::vector<double> radii_;
@@ -150,7 +179,8 @@ class BondFamilies {
   std::vector<std::vector<int>> pairs_of_;
   static constexpr unsigned broken_bit = 1u << 15;  ///< of ends_, the rest of which is below 27 * 27
   std::vector<std::uint16_t> ends_;
-  std::vector<float> stiffness_;  ///< empty if computed on the fly
+  std::vector<float> stiffness_;             ///< empty if computed on the fly
+  std::vector<SofteningHistory> softening_;  ///< empty if nothing softens
   std::vector<double> family_volume_, lost_volume_;
   std::vector<char> damaged_;
 
@@ -159,10 +189,10 @@ class BondFamilies {
     return ends_[b];
   }
   double stiffness_on_the_fly(const Bond<dim>& bond) const;
-  template <class Visit>
-  void for_each_overstretched(const std::vector<base::Point<dim>>& displacements,
-                              const CriticalStretches& critical_stretches, double ratio,
-                              const std::vector<morphing::ElementClass>& classes, Visit visit) const;
+  template <class Threshold, class Visit>
+  void for_each_stretched(const std::vector<base::Point<dim>>& displacements,
+                          const std::vector<morphing::ElementClass>& classes, Threshold threshold, Visit visit) const;
+  void lose(const Bond<dim>& bond, double share);
   void check_arguments() const;
   void add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles);
 };

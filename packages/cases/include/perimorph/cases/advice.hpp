@@ -13,7 +13,7 @@ namespace perimorph::cases {
 std::vector<std::string> advice(const Case& input, double element_size);
 
 /// Whether critical stretches, given or derived, look like a mistake of units. Local.
-/// @param critical_stretches s_crit of each material (solids_of), infinite if it does not break, [-]
+/// @param critical_stretches s_crit of each material (solids_of), infinite if it does not break at once, [-]
 std::vector<std::string> advice_on_stretches(const Case& input, const std::vector<double>& critical_stretches);
 
 /// Whether the increments fit the load at which the first bond breaks. Local.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "perimorph/input/section.hpp"
+#include "perimorph/input/values.hpp"
 #include "perimorph/model/numerical_options.hpp"
 
 namespace perimorph::cases {
@@ -13,5 +14,8 @@ struct Loading {
 };
 
 void declare(const input::Section& section, Loading& loading, model::NumericalOptions& numerical);
+
+/// @param softens whether any bonds do
+void check_loading(const input::Values& section, bool softens);
 
 }  // namespace perimorph::cases

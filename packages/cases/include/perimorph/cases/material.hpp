@@ -9,15 +9,19 @@
 
 namespace perimorph::cases {
 
-/// When something breaks: at most one is given; with neither it never does.
+/// When something breaks. Brittle bonds: at most one of stretch and energy is given; with neither it never does. Bonds
+/// that soften: strength and energy are.
 struct Fracture {
+  materials::Softening bond_law = materials::Softening::none;
   std::optional<double> critical_stretch;  ///< [-]
   std::optional<double> fracture_energy;   ///< [energy / area]
+  std::optional<double> tensile_strength;  ///< [stress]
 
   bool breaks() const { return critical_stretch || fracture_energy; }
+  bool softens() const { return bond_law != materials::Softening::none; }
 };
 
-/// A homogeneous, isotropic, linearly elastic, brittle material.
+/// A homogeneous, isotropic, linearly elastic material.
 struct Solid : Fracture {
   std::string name = "body";
   std::vector<std::string> blocks;              ///< of the mesh, that it fills
@@ -50,6 +54,10 @@ void check_materials(const input::Values& root, int dimension);
 /// Poisson's ratios that stand for the exact one (0.333 for 1/3) become that.
 /// @param root of a case's values
 void complete_materials(Teuchos::ParameterList& root);
+
+/// Whether bonds of any material, or between any two, soften.
+/// @param root of a case
+bool softens(const input::Values& root);
 
 /// Whether the dilatation carries in any material what bonds alone cannot: for other Poisson's ratios than theirs.
 bool has_dilatation(const input::Values& root);

@@ -17,6 +17,6 @@ struct Solver {
 void declare(const input::Section& decisive, Solver& solver, model::NumericalOptions& numerical);
 
 /// @param has_dilatation as the material says
-void check_solver(const input::Values& section, bool has_dilatation);
+void check_solver(const input::Values& section, bool has_dilatation, bool softens);
 
 }  // namespace perimorph::cases

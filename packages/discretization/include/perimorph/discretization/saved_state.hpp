@@ -9,6 +9,15 @@ struct BrokenBond {
   base::GlobalId first, second, call;
 };
 
+/// A softened bond by the global ids of its points, and its largest stretches, accepted and so far [-].
+struct SoftBond {
+  base::GlobalId first, second;
+  std::array<double, 2> largest_stretches;
+};
+
+/// Bonds that this rank holds, and what they have come to.
+using SofteningHistories = std::vector<std::pair<bonds::BondId, bonds::SofteningHistory>>;
+
 /// One rank's share of a state by global ids, as it goes into a checkpoint or to another partition. From the shares of
 /// any number of ranks, any other number of ranks can go on.
 template <int dim>
@@ -16,6 +25,7 @@ struct SavedState : History<dim> {
   static constexpr int values_per_element = dim << dim;  ///< as many corners as an element can have, dim values each
 
   std::vector<BrokenBond> broken;    ///< bonds of which this rank owns the first element, as they broke
+  std::vector<SoftBond> softened;    ///< unbroken ones, likewise
   std::vector<double> displacement;  ///< of owned elements, (n_owned_elements, values_per_element), [length]
 };
 
@@ -27,6 +37,10 @@ SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology);
 /// @throws UserError if bonds of the state do not exist in this body.
 template <int dim>
 BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology);
+
+/// The softened bonds that this rank holds, out of those of all ranks. Collective. @throws as above.
+template <int dim>
+SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology);
 
 /// The displacement on all local degrees of freedom of the topology, [length]. Local.
 /// @param saved has that of all local elements

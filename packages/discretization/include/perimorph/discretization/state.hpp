@@ -32,6 +32,7 @@ struct FlagPoint {
 template <int dim>
 struct History {
   double load_factor = 0.;
+  double load_step = 0.;    ///< from the load factor before [-]
   double force_scale = 0.;  ///< below which reactions say nothing of the load, [force]
   Energies energies;        ///< but for the elastic one, which follows from the displacement
   Counts counts;

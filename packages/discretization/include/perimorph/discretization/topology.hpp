@@ -59,11 +59,22 @@ class Topology {
   /// @param flag_points to which they are added, alike on all ranks
   base::GlobalId flag_damaged_elements(std::vector<FlagPoint<dim>>& flag_points);
 
-  /// Takes note of flag points that come from elsewhere. Local.
+  /// Takes note of flag points that come from elsewhere, and of the damage in their elements. Local.
   void note_flags(const std::vector<FlagPoint<dim>>& flag_points);
 
-  /// Marks bonds as broken. Local.
+  /// Marks bonds as broken or softened. Local.
   void take(const bonds::BondChange& change) { bonds_.take(change); }
+
+  /// BondFamilies::recount_damage(). Local.
+  void recount_damage() { bonds_.recount_damage(); }
+
+  /// BondFamilies::accept_softening(). Local.
+  void accept_softening() { bonds_.accept_softening(); }
+
+  /// BondFamilies::restore(). Local.
+  void restore(const std::vector<std::pair<bonds::BondId, bonds::SofteningHistory>>& histories) {
+    bonds_.restore(histories);
+  }
 
   // All local.
   bool is_built() const { return dofs_ != nullptr; }

@@ -48,9 +48,14 @@ class Body {
   /// if the solver fails.
   void solve(Accuracy accuracy);
 
-  /// Breaks the bonds that reached the critical stretch, or the worst of them (NumericalOptions::breaking_fraction);
-  /// returns how many.
-  base::GlobalId break_bonds();
+  /// Breaks the bonds that reached the critical stretch, or the worst of them (NumericalOptions::breaking_fraction),
+  /// and softens those that are stretched further than ever; returns how many. Softening that would change the forces
+  /// by less than a tolerance (NumericalOptions::softening_tolerance) waits for the next load.
+  /// @param may_recover whether what has softened under this load may be taken back, where it went too far
+  base::GlobalId break_bonds(bool may_recover = false);
+
+  /// What has softened under this load is not taken back any more.
+  void accept_softening();
 
   /// Makes the centroids of newly damaged elements flag points, around which alpha will grow [WHL19, section 3.3];
   /// returns how many.
@@ -64,8 +69,9 @@ class Body {
   /// @throws UserError if bonds of the state do not exist in this body.
   void restore(const discretization::SavedState<dim>& saved);
 
-  /// What comes depends on the state only, and not on what the solver has done before. Local.
-  void forget_solves() { equilibrium_.linear_solver().forget(); }
+  /// What comes depends on the state only, and not on what the solver has done before, nor on the order in which bonds
+  /// have softened.
+  void forget_solves();
 
   /// After a solve: nor does it depend on the order in which forces have been summed up.
   void renew_forces();
@@ -82,7 +88,6 @@ class Body {
   const operators::CoupledSystem<dim>& system() const { return system_; }
   operators::CoupledModel<dim> model() const { return system_.model(); }
   const mesh::Mesh<dim>& mesh() const { return topology_.mesh(); }
-  const bonds::CriticalStretches& critical_stretches() const { return critical_stretches_; }
   const Counts& counts() const { return state_.counts; }
   double load_factor() const { return state_.load_factor; }
   const std::vector<std::string>& solver_fallbacks() const { return equilibrium_.linear_solver().fallbacks(); }
@@ -99,7 +104,6 @@ class Body {
   base::Profile& profile_;
 
   discretization::State<dim> state_;
-  bonds::CriticalStretches critical_stretches_;
   discretization::Topology<dim> topology_;
   discretization::Dirichlet<dim> dirichlet_;
   operators::CoupledSystem<dim> system_;
@@ -112,6 +116,8 @@ class Body {
   void move_to_new_numbering();
   void assemble();
   void publish(const bonds::BondChange& change);
+  double power_of_supports() const;
+  bool is_settled(const bonds::BondChange& change) const;
   double elastic_energy() const;
   std::string reason_for(const std::string& trouble) const;
 };

@@ -8,14 +8,24 @@
 namespace perimorph::fracture {
 
 /// The work of all outer forces from one solution to the next. While the load rises no bond breaks and forces change
-/// linearly; at a fixed load only prescribed forces do work. Displacements, [length], and forces, [force], are on owned
-/// degrees of freedom; those of a displacement may be followed by copies.
+/// linearly; at a fixed load only prescribed forces do work. What soft bonds give way by at a fixed load, they have
+/// given way by while it rose: the supports' work in its last step is put right. Displacements, [length], and forces,
+/// [force], are on owned degrees of freedom; those of a displacement may be followed by copies.
 class ExternalWork {
  public:
-  /// The load has changed since the last solution.
-  void load_changes() { load_is_new_ = true; }
+  /// The load has changed since the last solution. @param step of the load factor [-]
+  void load_changes(double step) {
+    load_is_new_ = true;
+    step_ = step;
+  }
 
   /// Goes on from a solution whose forces are known, or with another numbering, whose forces are not.
+  /// @param power as for up_to(); @param step the last one, [-]
+  void go_on_from(base::ConstField u, std::vector<double> force, double power, double step) {
+    go_on_from(u, std::move(force));
+    last_power_ = power;
+    step_ = step;
+  }
   void go_on_from(base::ConstField u, std::vector<double> force) {
     PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) >= force.size(), "{} displacements, {} forces", u.size(),
                      force.size());
@@ -26,21 +36,23 @@ class ExternalWork {
   /// This rank's share up to a new solution, [energy].
   /// @param force of supports and loads together
   /// @param loads of the loads alone
-  double up_to(base::ConstField u, const std::vector<double>& force, const std::vector<double>& loads) {
+  /// @param power of the supports over the load factor where bonds soften, 0 otherwise, [energy]
+  double up_to(base::ConstField u, const std::vector<double>& force, const std::vector<double>& loads, double power) {
     PERIMORPH_ASSERT(force.size() == last_force_.size() && loads.size() == force.size(),
                      "{} forces, {} before, {} loads", force.size(), last_force_.size(), loads.size());
-    double work = 0.;
+    double work = load_is_new_ ? 0. : 0.5 * (power - last_power_) * step_;
     for (std::size_t i = 0; i < force.size(); ++i) {
       work += (u[i] - last_u_[i]) * (load_is_new_ ? 0.5 * (last_force_[i] + force[i]) : loads[i]);
     }
     load_is_new_ = false;
-    go_on_from(u, force);
+    go_on_from(u, force, power, step_);
     return work;
   }
 
  private:
   std::vector<double> last_u_, last_force_;
   bool load_is_new_ = false;
+  double last_power_ = 0., step_ = 0.;
 };
 
 }  // namespace perimorph::fracture

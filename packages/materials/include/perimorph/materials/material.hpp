@@ -5,21 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "perimorph/materials/bond_law.hpp"
 #include "perimorph/materials/elasticity.hpp"
 #include "perimorph/materials/micromodulus.hpp"
 
 namespace perimorph::materials {
 
-/// When bonds break: at a critical stretch, which goes with a fracture energy. One is given, the other follows.
+/// How bonds break, which goes with a fracture energy. Of critical stretch and energy one is given, the other follows.
 struct Toughness {
-  double critical_stretch = std::numeric_limits<double>::infinity();  ///< [-]; infinite: nothing breaks
-  double fracture_energy = std::numeric_limits<double>::infinity();   ///< G_c, [energy / area]
+  BondLaw law = {};                                                  ///< unbreakable if nothing else is said
+  double fracture_energy = std::numeric_limits<double>::infinity();  ///< G_c, [energy / area]
   bool is_stretch_given = false;
 
-  bool breaks() const { return !std::isinf(critical_stretch); }
+  double critical_stretch() const { return law.critical_stretch(); }  ///< [-]; infinite: nothing breaks
+  bool breaks() const { return !std::isinf(critical_stretch()); }
 };
 
-/// An isotropic, linearly elastic, brittle material.
+/// An isotropic, linearly elastic material that is brittle or softens.
 template <int dim>
 struct Material {
   std::string name;
@@ -50,6 +52,10 @@ double fracture_energy(const Material<dim>& one, const Material<dim>& other, dou
 /// The inverse, [-]. @param energy G_c >= 0, [energy / area]
 template <int dim>
 double critical_stretch(const Material<dim>& one, const Material<dim>& other, double energy);
+
+/// What bonds alone contribute to it at a critical stretch of 1, [energy / area].
+template <int dim>
+double energy_of_bonds(const Material<dim>& one, const Material<dim>& other);
 
 /// The less tough of two materials; of two that never break neither.
 /// @return toughness of a perfect interface between them

@@ -15,9 +15,10 @@ struct NumericalOptions {
   operators::PeridynamicStiffness peridynamic_stiffness = operators::PeridynamicStiffness::dropped;
   double growth_inner_radius = 0., growth_outer_radius = 0.;  ///< r_i, r_o of new zones, [length]
   int points_per_direction = 2;                               ///< material points of an element
-  double tolerance = 1e-6;         ///< residual over reaction forces in accepted solutions [-]
-  double damage_tolerance = 1e-4;  ///< the same while bonds break [-]
-  double breaking_fraction = 1.;   ///< share of the overstretched bonds that break between two solves [-]
+  double tolerance = 1e-6;            ///< residual over reaction forces in accepted solutions [-]
+  double damage_tolerance = 1e-4;     ///< the same while bonds break [-]
+  double softening_tolerance = 2e-3;  ///< change of forces over reactions from which softening counts [-]
+  double breaking_fraction = 1.;      ///< share of the overstretched bonds that break between two solves [-]
   operators::OperatorForm operator_form = operators::OperatorForm::matrix_free;
   operators::PreconditionerMatrix preconditioner_matrix = operators::PreconditionerMatrix::short_range;
   double short_range_cut_off = 0.;  ///< of the bonds in the short-range matrix, [length]

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "perimorph/base/parallel.hpp"
-#include "perimorph/bonds/critical_stretches.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
+#include "perimorph/materials/bond_materials.hpp"
 #include "perimorph/materials/material.hpp"
 #include "perimorph/mesh/mesh.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
@@ -43,15 +43,17 @@ struct Problem {
   double horizon() const { return materials[0].micromodulus.horizon; }  ///< [length]
   /// Whether anything can break.
   bool breaks() const;
+  /// Whether any bonds soften.
+  bool softens() const;
 };
 
 /// The place in the problem's list of each local element's material, (n_elements). Local.
 template <int dim>
 std::vector<int> materials_of_elements(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
 
-/// Of the bonds of a mesh, by the materials at their ends. Local.
+/// The problem's materials as the bonds of a mesh see them. Local.
 template <int dim>
-bonds::CriticalStretches critical_stretches(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
+materials::BondMaterials bond_materials(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
 
 /// Each rank's part of the mesh, with a halo as the problem needs it. Collective.
 /// @param whole the mesh, on rank 0

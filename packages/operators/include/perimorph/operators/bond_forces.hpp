@@ -53,18 +53,24 @@ class BondForces : public LinearTerm<dim> {
   std::vector<std::size_t> first_block_, first_bond_;  ///< per packet
   std::vector<int> second_;                            ///< per block: the other packet
   std::vector<std::uint16_t> masks_;                   ///< per block: bit 4 i + j is the bond from point i to point j
-  std::vector<float> stiffness_;  ///< c0 w w of each bond, zero if it has broken since; empty on the fly
+  std::vector<float> stiffness_;  ///< c0 w w of each bond as softened, zero if it has broken since; empty on the fly
 
   mutable std::vector<double> displacements_, forces_;  ///< per packet: (dim, 4)
 
   std::optional<Dilatation> dilatation_;   ///< at the points of the packets
   mutable std::vector<double> stretches_;  ///< per packet: (4), first S and then p
 
+  struct Place {
+    std::size_t block, position;  ///< in masks_ and in stiffness_
+    unsigned bit;                 ///< of the mask
+  };
+
   void make_packets();
   void make_blocks();
   std::size_t shapes_of(const elements::ReferenceElement<dim>& reference, int first_point);
   void make_dilatation();
   std::size_t lane_of(int element, int q) const;
+  Place place_of(const bonds::Bond<dim>& bond) const;
   void gather(const double* u) const;
   template <class Sum>
   void pass_over(Sum sum) const;

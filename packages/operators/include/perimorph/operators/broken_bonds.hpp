@@ -6,20 +6,29 @@
 
 namespace perimorph::operators {
 
-/// Takes the forces of newly broken bonds out of an internal force. Local.
-/// @param broken of this rank, (n), each once
+/// Takes out of an internal force what bonds no longer hold. Local.
 /// @param at_points displacement at which the force was computed, (n_points), [length]
 /// @param force on owned degrees of freedom, [force]
 template <int dim>
-void subtract_bond_forces(const CoupledModel<dim>& model, const std::vector<std::size_t>& broken,
+void subtract_lost_forces(const CoupledModel<dim>& model, const bonds::BondChange& change,
                           const PointFields<dim>& at_points, std::vector<double>& force);
 
-/// Energy stored in bonds just before they break, counted by the rank that owns a bond's first element:
-/// Sum 1/2 k (xi . eta)^2 [WHL19, eq. 21], [energy]. Local.
-/// @param bonds of this rank, (n)
+/// Energies that bonds held just before they broke: Sum 1/2 k (xi . eta)^2 [WHL19, eq. 21], [energy].
+struct HeldEnergy {
+  double all = 0., brittle = 0.;
+};
+
+/// Counted by the rank that owns a bond's first element. Local.
+/// @param broken of this rank, (n)
 /// @param at_points displacement, (n_points), [length]
 template <int dim>
-double bond_energy(const CoupledModel<dim>& model, const std::vector<std::size_t>& bonds,
-                   const PointFields<dim>& at_points);
+HeldEnergy energy_of_broken(const CoupledModel<dim>& model, const std::vector<bonds::BondId>& broken,
+                            const PointFields<dim>& at_points);
+
+/// What softening has dissipated since it was last accepted, each bond on its way from there to here: Sum Int 1/2 k
+/// (xi . eta)^2 dD, [energy]. Counted likewise. Local.
+/// @param at_points displacement, (n_points), [length]
+template <int dim>
+double dissipation_of_softening(const CoupledModel<dim>& model, const PointFields<dim>& at_points);
 
 }  // namespace perimorph::operators

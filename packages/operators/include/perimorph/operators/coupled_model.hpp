@@ -20,9 +20,14 @@ struct CoupledModel {
 
   /// Stiffness of an intact bond's spring, c0 (alpha(x) + alpha(p)) / 2 w_x w_p, [force / length^3]
   /// [WHL19, eq. 15, 21].
-  double spring(const bonds::Bond<dim>& bond) const {
+  double intact_spring(const bonds::Bond<dim>& bond) const {
     return bonds.stiffness(bond) * 0.5 * (alpha(bond.first_point) + alpha(bond.second_point));
   }
+  const materials::BondLaw& law(const bonds::Bond<dim>& bond) const {
+    return bonds.materials().law(bond.first_element, bond.second_element);
+  }
+  /// What softening has left of it; of a broken bond when it broke.
+  double spring(const bonds::Bond<dim>& bond) const { return intact_spring(bond) * bonds.share_left(bond); }
 };
 
 /// What bonds see of a displacement, at material points.
@@ -34,8 +39,8 @@ struct PointFields {
   std::vector<double> dilatational_stretch = {};
 };
 
-/// The law of an intact bond [WHL19, eq. 14, 15]: a spring along xi, stretched by eta = u(p) - u(x) and by the
-/// dilatation at its ends.
+/// The law of a bond at its present damage [WHL19, eq. 14, 15]: a spring along xi, stretched by eta = u(p) - u(x) and
+/// by the dilatation at its ends.
 template <int dim>
 struct BondSpring {
   base::Point<dim> xi;  ///< [length]
@@ -43,9 +48,13 @@ struct BondSpring {
   double tension;       ///< k (xi . eta + |xi|^2 (p(x) + p(p))), [force / length]
 
   BondSpring(const CoupledModel<dim>& model, const bonds::Bond<dim>& bond, const PointFields<dim>& at_points)
+      : BondSpring(model.spring(bond), bond, at_points) {}
+
+  /// @param stiffness k, [force / length^3]
+  BondSpring(double stiffness, const bonds::Bond<dim>& bond, const PointFields<dim>& at_points)
       : xi(bond.xi),
         elongation(bond.xi.dot(at_points.displacement[bond.second_point] - at_points.displacement[bond.first_point])),
-        tension(model.spring(bond) * (elongation + dilatation(bond, at_points))) {}
+        tension(stiffness * (elongation + dilatation(bond, at_points))) {}
 
   /// The force on its first point, (dim), [force]; on the second the opposite.
   base::Point<dim> pull() const { return tension * xi; }

@@ -63,6 +63,9 @@ class CoupledSystem : public NonlinearSystem {
   /// the preconditioner's matrix, some more than once. Local.
   std::vector<int> take(const bonds::BondChange& change);
 
+  /// What bonds would take from the forces, as the residual that it leaves; nothing is changed. Collective.
+  Norms imbalance_after(const bonds::BondChange& change) const;
+
   void evaluate(base::ConstField u) override;
   Norms residual(Vector& residual) const override;
   void correct(base::Field u, const Vector& correction) override;

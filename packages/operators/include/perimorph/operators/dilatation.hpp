@@ -27,6 +27,8 @@ class Dilatation {
   /// A bond that a point has, or has no longer. @param weight c |xi|^4, [force length]
   void add(std::size_t point, double weight);
   void remove(std::size_t point, double weight);
+  /// It still has it, with less weight. @param weight what is lost
+  void weaken(std::size_t point, double weight);
 
   /// Makes p of S, (n_points), [force length] to [-]; at points of other ranks as it is there. Collective.
   void to_stretch(std::vector<double>& sums) const;
