@@ -143,7 +143,7 @@ class Softening(GrowingCrack):
         return outcome
 
     def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
-        for ranks, stops in [(1, [1, 6, 10, 13]), (2, [5, 12]), (4, [11])]:
+        for ranks, stops in [(1, [6, 12]), (2, [11]), (4, [11])]:
             whole = self.whole(ranks=ranks)
             for stop in stops:
                 with self.subTest(ranks=ranks, stop=stop):
@@ -162,15 +162,15 @@ class Softening(GrowingCrack):
     def test_stopped_in_the_midst_of_an_increment_it_ends_with_the_same_bits(self):
         often = [*EVERY, "--set", "Loading/Softening Tolerance=1e-5"]  # more solves, between which checkpoints are kept
         whole = self.whole("--set", "Loading/Softening Tolerance=1e-5", ranks=1)
-        limits = [self.run_case("--quiet", *often, "--set", f"Loading/Maximum Damage Iterations={n}") for n in [25]]
-        self.assertEqual([run.returncode for run in limits], [3])
+        run = self.run_case("--quiet", *often, "--set", "Loading/Maximum Damage Iterations=25")
+        self.assertEqual(run.returncode, 3, run.stderr)
         self.assertLess(len(self.rows()), INCREMENTS)
         self.run_until(INCREMENTS, *often, "--restart")
         self.assert_same(self.outcome(), whole)
 
     def test_on_other_ranks_it_softens_alike(self):
         rows = self.whole(ranks=1)[0]
-        for before, after in [(1, 2), (3, 1)]:
+        for before, after in [(1, 2)]:
             with self.subTest(before=before, after=after):
                 self.run_until(11, ranks=before)
                 self.run_until(INCREMENTS, "--restart", ranks=after)

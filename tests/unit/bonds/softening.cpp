@@ -25,7 +25,7 @@ class Softening : public testing::Test {
     return u;
   }
   std::vector<bonds::SoftenedBond> soften(double stretch, bool may_recover = false) {
-    const auto softened = body.bonds.softened(widened(stretch), classes, may_recover);
+    auto softened = body.bonds.softened(widened(stretch), classes, may_recover);
     body.bonds.take({{}, 0, 0., softened});
     return softened;
   }

@@ -27,12 +27,15 @@ SETTINGS = {
 }
 
 
-def write_mesh_size(folder, dx):
-    """The case with other elements, in a folder of its own."""
-    text = (CASE / "concrete_beam.geo").read_text()
-    assert "dx = 2.5;" in text
-    (folder / "concrete_beam.geo").write_text(text.replace("dx = 2.5;", f"dx = {dx:g};"))
-    (folder / "concrete_beam.xml").write_text((CASE / "concrete_beam.xml").read_text())
+def write_case_of(folder, setting):
+    """The case with other elements, in a folder of its own; of brittle bonds without what only soft ones have."""
+    geometry = (CASE / "concrete_beam.geo").read_text()
+    assert "dx = 2.5;" in geometry
+    (folder / "concrete_beam.geo").write_text(geometry.replace("dx = 2.5;", f"dx = {setting['dx']:g};"))
+    lines = (CASE / "concrete_beam.xml").read_text().splitlines(keepends=True)
+    of_soft_bonds = ('"Bond Law"', '"Tensile Strength"') if setting["law"] == "Brittle" else ()
+    (folder / "concrete_beam.xml").write_text("".join(
+        line for line in lines if not any(name in line for name in of_soft_bonds)))
 
 
 def curve_of(output, rows):
@@ -46,10 +49,8 @@ def curve_of(output, rows):
 
 
 def settings_of(setting):
-    law = {"Brittle": ["Material/Bond Law=Brittle", "Loading/Maximum Damage Iterations=1000000"]}.get(
-        setting["law"], [f"Material/Bond Law={setting['law']}"])
     return [f"Peridynamics/Characteristic Length={setting['l']}", f"Peridynamics/Horizon={setting['horizon']}",
-            f"Material/Fracture Energy={setting['energy']}", *law]
+            f"Material/Fracture Energy={setting['energy']}", f"Material/Bond Law={setting['law']}"]
 
 
 def difference(curve, reference):
@@ -71,7 +72,7 @@ def measure(folder):
     for study, changes in SETTINGS.items():
         for change in changes:
             setting = {**AS_THE_CASE, **change}
-            write_mesh_size(folder, setting["dx"])
+            write_case_of(folder, setting)
             output = str(folder / "concrete_beam")
             one = run(str(folder / "concrete_beam.xml"), output, settings=settings_of(setting))
             curve = curve_of(output, one.history)
