@@ -119,6 +119,8 @@ TEST(SofteningBarIn3d, HasTheStrengthThatWasAskedForFarFromItsSurfaces) {
     EXPECT_NEAR(result.stiffness, 1., 0.02);
     strengths.push_back(result.strength);
   }
+  EXPECT_NEAR(strengths[0] / weakness, 0.75, 0.03);
+  EXPECT_NEAR(strengths[1] / weakness, 0.87, 0.03);
   EXPECT_NEAR(2. * strengths[1] - strengths[0], weakness, 0.05);
 }
 

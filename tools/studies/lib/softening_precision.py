@@ -93,7 +93,7 @@ def measure(folder):
 
 
 def draw(rows, curves, file):
-    figure, panels = plt.subplots(1, 4, figsize=(13, 4.4), layout="constrained", gridspec_kw={"width_ratios": [2, 1, 1, 1]})
+    figure, panels = plt.subplots(1, 4, figsize=(13, 5.4), gridspec_kw={"width_ratios": [2, 1, 1, 1]})
     forces, *costs = panels
     forces.fill_between(*measured(), color="#e4e4e4", label="measured")
     styles = iter(COLOURS * 2)
@@ -107,10 +107,11 @@ def draw(rows, curves, file):
             for panel, column in zip(costs, ("seconds", "unknowns", "memory_mb")):
                 panel.plot(float(row[column]), 100 * float(row["difference"]), "o", color=colour)
     forces.set(xlim=(0, 0.2), ylim=(0, None), xlabel="opening of the mouth [mm]", ylabel="force [N]")
-    forces.legend(frameon=False, fontsize=7)
     for panel, label in zip(costs, ("processor time [s]", "unknowns", "memory [MB]")):
-        panel.set(xlabel=label, ylim=(0, None), xlim=(0, None))
+        panel.set(xlabel=label, ylim=(0, 3), xlim=(0, 1.1 * panel.get_xlim()[1]))
     costs[0].set_ylabel("difference from the finer mesh [%]")
     for panel in panels:
         panel.grid(True, color="#e4e4e4", linewidth=0.6)
+    figure.legend(*forces.get_legend_handles_labels(), loc="lower center", ncol=3, frameon=False, fontsize=8)
+    figure.subplots_adjust(left=0.06, right=0.99, top=0.97, bottom=0.3, wspace=0.3)
     figure.savefig(file, dpi=120)
