@@ -417,6 +417,7 @@ class Plausibility(Checked):
         self.assertIn("/Peridynamics/Characteristic Length: 0.2 is 0.20 of an element; of bonds that soften it is a length of the "
                       "material", run.stdout)
         self.assertIn("length           l = 0.2 is one of the material: keep it, and the horizon, on other meshes", run.stdout)
+        self.assertIn("first softening  at load ", run.stdout)
         self.assertNotIn("a length of the material", self.check(*settings("Peridynamics/Characteristic Length=0.4")).stdout)
 
     def test_the_brittleness_number(self):

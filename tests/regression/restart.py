@@ -182,6 +182,38 @@ class Softening(GrowingCrack):
                                            delta=0.01 * float(rows[-1]["dissipated_energy"]))
 
 
+def with_inclusion(mesh):
+    """The plate's mesh, every third of its elements in a block "stiff"."""
+    head, elements = mesh.split("$Elements\n")
+    names = head.split("$PhysicalNames\n")[1].split("\n")
+    tag = next(name.split()[1] for name in names if '"body"' in name)
+    head = head.replace(f"$PhysicalNames\n{names[0]}\n", f'$PhysicalNames\n{int(names[0]) + 1}\n2 99 "stiff"\n')
+    lines = [line.split() for line in elements.split("\n")]
+    for line in lines:
+        if len(line) > 5 and line[3] == tag and int(line[0]) % 3 == 0:
+            line[3] = "99"
+    return head + "$Elements\n" + "\n".join(" ".join(line) for line in lines)
+
+
+class SeveralMaterials(GrowingCrack):
+    """Two materials in a pattern, and interfaces weaker than both."""
+
+    MESH = with_inclusion(GrowingCrack.MESH)
+    CASE = changed(GrowingCrack.CASE, {
+        "Materials": {"stiff": {"Blocks": ["stiff"], "Young's Modulus": 3000.0, "Poisson's Ratio": 0.2, "Critical Stretch": 0.05}},
+        "Interfaces": {"between": {"Materials": ["body", "stiff"], "Critical Stretch": 0.04}}})
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks in [1, 4]:
+            with self.subTest(ranks=ranks):
+                self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 100)
+                self.run_until(13, *EVERY, ranks=ranks)
+                self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
+                self.assert_same(self.outcome(), whole)
+
+
 class Refused(GrowingCrack):
     """Status 2, what differs, and nothing changed."""
 

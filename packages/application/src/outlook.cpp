@@ -156,8 +156,9 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
   for (const auto& fallback : body.solver_fallbacks()) warn(log, input, {"/Solver: " + fallback});
   const double load = fracture::load_of_first_break(comm, body);
   if (std::isfinite(load)) {
-    log->info("first break      at load {:.4g}, in increment {:.0f} of {:.0f}{}", load, std::max(1., std::ceil(load)),
-              last, largest_reaction(comm, input, body, load / last));
+    log->info("{}at load {:.4g}, in increment {:.0f} of {:.0f}{}",
+              problem.softens() ? "first softening  " : "first break      ", load, std::max(1., std::ceil(load)), last,
+              largest_reaction(comm, input, body, load / last));
   }
   advise(log, input, cases::advice_on_load(input, load), spdlog::level::warn);
 }

@@ -41,6 +41,7 @@ template <int dim>
 void CoupledSystem<dim>::follow_morphing() {
   elasticity_.update(topology_.mesh(), topology_.points(), topology_.bonds(), topology_.alpha(), topology_.classes(),
                      topology_.discontinuous());
+  if (elasticity_.has_several_materials()) topology_.share(elasticity_.zero_flags());
 }
 
 template <int dim>

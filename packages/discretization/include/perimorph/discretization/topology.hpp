@@ -76,6 +76,9 @@ class Topology {
     bonds_.restore(histories);
   }
 
+  /// Flags of all local elements become those of their owners. Collective.
+  void share(std::vector<char>& flags) const { element_exchange_.update(flags); }
+
   // All local.
   bool is_built() const { return dofs_ != nullptr; }
   const mesh::Mesh<dim>& mesh() const { return mesh_; }

@@ -37,7 +37,7 @@ class CoupledSystem : public NonlinearSystem {
                 const discretization::Dirichlet<dim>& dirichlet, const discretization::Loads<dim>& loads,
                 MorphedStiffness<dim> elasticity, SystemOptions options, base::Profile& profile);
 
-  /// E(x) follows alpha, bonds and classes of the topology. Local.
+  /// E(x) follows alpha, bonds and classes of the topology. Collective.
   void follow_morphing();
 
   /// What a preconditioner is made from.
