@@ -168,9 +168,7 @@ class Continued(InThreeDimensions):
             self.output = self.folder / f"out-{ranks}"
             for stop in stops:
                 with self.subTest(ranks=ranks, stop=stop):
-                    self.run_until(stop, *EVERY, ranks=ranks)
-                    self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
-                    self.assert_same(self.outcome(), whole)
+                    self.assert_continues(whole, stop, *EVERY, ranks=ranks)
 
     def test_on_other_ranks_the_same_bonds_break(self):
         self.run_until(INCREMENTS)
@@ -195,9 +193,7 @@ class Softening(InThreeDimensions):
                 whole = self.outcome()
                 self.assertGreater(float(whole[0][-1]["dissipated_energy"]), 1)
                 self.output = self.folder / f"out-{ranks}"
-                self.run_until(INCREMENTS - 4, *EVERY, ranks=ranks)
-                self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
-                self.assert_same(self.outcome(), whole)
+                self.assert_continues(whole, 10, *EVERY, ranks=ranks)
 
 
 class Mistakes(InThreeDimensions):

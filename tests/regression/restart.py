@@ -27,9 +27,7 @@ class Continued(GrowingCrack):
             whole = self.uninterrupted(ranks)
             for stop in stops:  # before damage, at the first breaks, after growths, between two growths
                 with self.subTest(ranks=ranks, stop=stop):
-                    self.run_until(stop, *EVERY, ranks=ranks)
-                    self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
-                    self.assert_same(self.outcome(), whole)
+                    self.assert_continues(whole, stop, *EVERY, ranks=ranks)
 
     def test_with_dilatation_it_ends_with_the_same_bits(self):
         volume = [*EVERY, "--set", "Material/Poisson's Ratio=0.2"]
@@ -38,9 +36,7 @@ class Continued(GrowingCrack):
                 self.run_until(INCREMENTS, *volume, ranks=ranks)
                 whole = self.outcome()
                 self.assertGreater(int(whole[0][-1]["broken_bonds"]), 0)
-                self.run_until(14, *volume, ranks=ranks)
-                self.run_until(INCREMENTS, *volume, "--restart", ranks=ranks)
-                self.assert_same(self.outcome(), whole)
+                self.assert_continues(whole, 14, *volume, ranks=ranks)
 
     def test_on_other_ranks_the_same_bonds_break(self):
         rows, times, steps = self.uninterrupted()
@@ -76,9 +72,7 @@ class Continued(GrowingCrack):
                     self.assertAlmostEqual(float(row["reaction_upper_y"]) / float(other["reaction_upper_y"]), 1, places=5)
 
                 for stop in [12, 14]:
-                    self.run_until(stop, *repartitioned, ranks=ranks)
-                    self.run_until(INCREMENTS, *repartitioned, "--restart", ranks=ranks)
-                    self.assert_same(self.outcome(), whole)
+                    self.assert_continues(whole, stop, *repartitioned, ranks=ranks)
 
     def test_a_run_that_is_done_can_go_further(self):
         self.run_until(3)
@@ -147,17 +141,13 @@ class Softening(GrowingCrack):
             whole = self.whole(ranks=ranks)
             for stop in stops:
                 with self.subTest(ranks=ranks, stop=stop):
-                    self.run_until(stop, *EVERY, ranks=ranks)
-                    self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
-                    self.assert_same(self.outcome(), whole)
+                    self.assert_continues(whole, stop, *EVERY, ranks=ranks)
 
     def test_with_dilatation_and_as_a_matrix_it_ends_with_the_same_bits(self):
         for option in ["Material/Poisson's Ratio=0.2", "Solver/Operator=CRS", "Material/Bond Law=Exponential"]:
             with self.subTest(option=option):
                 whole = self.whole("--set", option, ranks=2)
-                self.run_until(12, *EVERY, "--set", option, ranks=2)
-                self.run_until(INCREMENTS, *EVERY, "--set", option, "--restart", ranks=2)
-                self.assert_same(self.outcome(), whole)
+                self.assert_continues(whole, 12, *EVERY, "--set", option, ranks=2)
 
     def test_stopped_in_the_midst_of_an_increment_it_ends_with_the_same_bits(self):
         often = [*EVERY, "--set", "Loading/Softening Tolerance=1e-5"]  # more solves, between which checkpoints are kept
@@ -182,23 +172,10 @@ class Softening(GrowingCrack):
                                            delta=0.01 * float(rows[-1]["dissipated_energy"]))
 
 
-def with_inclusion(mesh):
-    """The plate's mesh, every third of its elements in a block "stiff"."""
-    head, elements = mesh.split("$Elements\n")
-    names = head.split("$PhysicalNames\n")[1].split("\n")
-    tag = next(name.split()[1] for name in names if '"body"' in name)
-    head = head.replace(f"$PhysicalNames\n{names[0]}\n", f'$PhysicalNames\n{int(names[0]) + 1}\n2 99 "stiff"\n')
-    lines = [line.split() for line in elements.split("\n")]
-    for line in lines:
-        if len(line) > 5 and line[3] == tag and int(line[0]) % 3 == 0:
-            line[3] = "99"
-    return head + "$Elements\n" + "\n".join(" ".join(line) for line in lines)
-
-
 class SeveralMaterials(GrowingCrack):
     """Two materials in a pattern, and interfaces weaker than both."""
 
-    MESH = with_inclusion(GrowingCrack.MESH)
+    MESH = plate_mesh(has_stiff=True)
     CASE = changed(GrowingCrack.CASE, {
         "Materials": {"stiff": {"Blocks": ["stiff"], "Young's Modulus": 3000.0, "Poisson's Ratio": 0.2, "Critical Stretch": 0.05}},
         "Interfaces": {"between": {"Materials": ["body", "stiff"], "Critical Stretch": 0.04}}})
@@ -209,9 +186,7 @@ class SeveralMaterials(GrowingCrack):
                 self.run_until(INCREMENTS, *EVERY, ranks=ranks)
                 whole = self.outcome()
                 self.assertGreater(int(whole[0][-1]["broken_bonds"]), 100)
-                self.run_until(13, *EVERY, ranks=ranks)
-                self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
-                self.assert_same(self.outcome(), whole)
+                self.assert_continues(whole, 13, *EVERY, ranks=ranks)
 
 
 class Refused(GrowingCrack):

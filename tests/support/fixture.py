@@ -85,14 +85,18 @@ def msh(groups, nodes, elements):
                      + section("Nodes", [" ".join(map(str, node)) for node in nodes]) + section("Elements", lines) + [""])
 
 
-def plate_mesh(columns=N):
-    """Block "body", the right edge "right", and the two left corners "lower" and "upper"."""
+def plate_mesh(columns=N, has_stiff=False):
+    """Block "body", the right edge "right", and the two left corners "lower" and "upper"; every third column in a block
+    "stiff" if there is one."""
     node = lambda i, j: j * (columns + 1) + i + 1
     nodes = [(node(i, j), i, j, 0) for j in range(N + 1) for i in range(columns + 1)]
     elements = [(15, 1, [node(0, 0)]), (15, 2, [node(0, N)])]
     elements += [(1, 3, [node(columns, j), node(columns, j + 1)]) for j in range(N)]
-    elements += [(3, 4, [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]) for j in range(N) for i in range(columns)]
-    return msh(['0 1 "lower"', '0 2 "upper"', '1 3 "right"', '2 4 "body"'], nodes, elements)
+    block = lambda i, j: 5 if has_stiff and i % 3 == 0 else 4
+    elements += [(3, block(i, j), [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)])
+                 for j in range(N) for i in range(columns)]
+    names = ['0 1 "lower"', '0 2 "upper"', '1 3 "right"', '2 4 "body"'] + ['2 5 "stiff"'] * has_stiff
+    return msh(names, nodes, elements)
 
 
 def text_of(variable):
@@ -209,6 +213,12 @@ class GrowingCrack(Plate):
         self.assertEqual(len(outcome[0]), INCREMENTS)
         self.assertGreater(float(outcome[0][-1]["broken_bonds"]), 150)
         return outcome
+
+    def assert_continues(self, whole, stop, *options, ranks=1):
+        """A run with checkpoints that stops after an increment and goes on ends as the whole one did."""
+        self.run_until(stop, *options, ranks=ranks)
+        self.run_until(len(whole[0]), *options, "--restart", ranks=ranks)
+        self.assert_same(self.outcome(), whole)
 
     def assert_same(self, outcome, other):
         """To the last bit."""

@@ -70,8 +70,7 @@ void describe_strengths(const cases::Case& input, const model::Problem<dim>& pro
       const double length = solid.youngs_modulus * toughness.fracture_energy / (strength * strength);
       log->info(
           "strength         {}f_t = {:.4g}, where bonds soften from {:.4g}; E G_f / f_t^2 = {:.4g}, the body {:.4g} "
-          "deep: "
-          "brittleness number {:.2g}, {}",
+          "deep: brittleness number {:.2g}, {}",
           whose(problem, m), strength, toughness.law.limit() * solid.youngs_modulus, length, depth, depth / length,
           what_decides(depth / length));
       log->info("length           {}l = {:.4g} is one of the material: keep it, and the horizon, on other meshes",
@@ -157,8 +156,8 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
   const double load = fracture::load_of_first_break(comm, body);
   if (std::isfinite(load)) {
     log->info("{}at load {:.4g}, in increment {:.0f} of {:.0f}{}",
-              problem.softens() ? "first softening  " : "first break      ", load, std::max(1., std::ceil(load)), last,
-              largest_reaction(comm, input, body, load / last));
+              body.topology().bonds().softens() ? "first softening  " : "first break      ", load,
+              std::max(1., std::ceil(load)), last, largest_reaction(comm, input, body, load / last));
   }
   advise(log, input, cases::advice_on_load(input, load), spdlog::level::warn);
 }

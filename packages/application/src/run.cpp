@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "outlook.hpp"
 #include "perimorph/base/errors.hpp"
@@ -93,9 +94,9 @@ std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm
   describe_fracture(problem, is_calibrated, log);
   auto lines = cases::advice(input, size);
   std::vector<double> stretches;
-  for (const auto& [name, e0, ratio, c0, toughness, density] : problem.materials) {
-    stretches.push_back(toughness.law.softens() ? std::numeric_limits<double>::infinity()
-                                                : toughness.critical_stretch());
+  for (const auto& material : problem.materials) {
+    const auto& law = material.toughness.law;
+    stretches.push_back(law.softens() ? std::numeric_limits<double>::infinity() : law.critical_stretch());
   }
   for (auto& line : cases::advice_on_stretches(input, stretches)) lines.push_back(std::move(line));
   return lines;

@@ -164,7 +164,7 @@ void BondFamilies<dim>::accept_softening() {
 }
 
 template <int dim>
-void BondFamilies<dim>::restore(const std::vector<std::pair<BondId, SofteningHistory>>& histories) {
+void BondFamilies<dim>::restore_softening(const SofteningHistories& histories) {
   accept_softening();
   for (const auto& [b, history] : histories) softening_[b] = history;
 }

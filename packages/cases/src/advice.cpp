@@ -15,7 +15,7 @@ namespace {
 
 /// Below these, and what it costs: tests/verification/README.md has the measurements.
 constexpr double least_length = 0.3;         // characteristic, in element sizes
-constexpr double most_elements = 3.2;        // an element, in characteristic lengths of bonds that soften
+constexpr double longest_element = 3.2;      // in characteristic lengths of bonds that soften
 constexpr double least_horizon = 3.;         // in element sizes
 constexpr double most_cut_off = 0.05;        // of the micromodulus, by the horizon
 constexpr double least_rim = 1.;             // over which alpha falls, in horizons
@@ -86,13 +86,11 @@ class Advice {
   }
 
   void check_length_of_material() {
-    if (size_ <= most_elements * length_) return;
+    if (size_ <= longest_element * length_) return;
     add("/Peridynamics/Characteristic Length",
         "{:.4g} is {:.2f} of an element; of bonds that soften it is a length of the material, and stays as it is on "
-        "other "
-        "meshes. In elements of more than three times this length, bodies are some 5 % too strong and too tough; "
-        "better "
-        "are elements of {:.3g}",
+        "other meshes. With elements of more than three times this length, forces depend on the mesh by some percent; "
+        "better are elements of {:.3g}",
         length_, length_ / size_, 3. * length_);
   }
 

@@ -96,8 +96,9 @@ BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, c
 }
 
 template <int dim>
-SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology) {
-  SofteningHistories found;
+bonds::SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved,
+                                        const Topology<dim>& topology) {
+  bonds::SofteningHistories found;
   const GlobalId n_own = visit_held(saved.softened, topology, [&](const SoftBond& softened, bonds::BondId bond) {
     const auto& [accepted, largest] = softened.largest_stretches;
     found.push_back({bond, {static_cast<float>(accepted), static_cast<float>(largest)}});
@@ -121,10 +122,10 @@ std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topol
   return u;
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                            \
-  template SavedState<dim> save(const State<dim>&, const Topology<dim>&);                                     \
-  template BrokenByCall find_broken(const base::Comm&, const SavedState<dim>&, const Topology<dim>&);         \
-  template SofteningHistories find_softened(const base::Comm&, const SavedState<dim>&, const Topology<dim>&); \
+#define PERIMORPH_INSTANTIATE(dim)                                                                                   \
+  template SavedState<dim> save(const State<dim>&, const Topology<dim>&);                                            \
+  template BrokenByCall find_broken(const base::Comm&, const SavedState<dim>&, const Topology<dim>&);                \
+  template bonds::SofteningHistories find_softened(const base::Comm&, const SavedState<dim>&, const Topology<dim>&); \
   template std::vector<double> nodal_displacement(const SavedState<dim>&, const Topology<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -14,8 +14,8 @@ void check_limit(int count, int limit, int increment, const char* what, const ch
       fmt::format("increment {}: more than {} {}; /Loading/{} sets this limit", increment, limit, what, parameter));
 }
 
-/// Within an increment: as long as softening may recover, so that it does not depend on how large the increment is.
-/// After that it only grows, and so comes to an end.
+/// Of an increment, in which softening may still recover, so that it does not depend on how large the increment is;
+/// after them it only grows, and so comes to an end.
 constexpr int free_solves = 10;
 
 /// Solves and breaks bonds until nothing breaks any more; returns false if it was asked to stop.

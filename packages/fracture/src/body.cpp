@@ -243,7 +243,7 @@ void Body<dim>::restore(const discretization::SavedState<dim>& saved) {
   }
   rebuild(has_grown);
   for (; next != state_.broken.end(); ++next) publish({next->second});
-  if (topology_.bonds().softens()) topology_.restore(discretization::find_softened(*comm_, saved, topology_));
+  if (topology_.bonds().softens()) topology_.restore_softening(discretization::find_softened(*comm_, saved, topology_));
 
   static_cast<discretization::History<dim>&>(state_) = saved;
   state_.displacement = discretization::nodal_displacement(saved, topology_);

@@ -19,37 +19,21 @@ class UniformBody {
   struct Stress {
     double along = 0., across = 0.;  ///< in one unit for all
   };
-  Stress stress(double along, double across) const {
-    return sum(along, across, [&](double stretch) { return stretch > 0. ? law_.share_left(stretch) : 1.; });
-  }
-  Stress elastic_stress(double along, double across) const {
-    return sum(along, across, [](double) { return 1.; });
-  }
-
   /// Along the axis, with none across it.
   double uniaxial_stress(double along) const {
-    const auto [low, high] = across_range(along);
-    boost::uintmax_t n = 100;
-    const auto bracket = boost::math::tools::toms748_solve([&](double across) { return stress(along, across).across; },
-                                                           low, high, boost::math::tools::eps_tolerance<double>(40), n);
+    boost::uintmax_t n = 100;  // within these bounds the stress across changes its sign, for any Poisson's ratio
+    const auto bracket =
+        boost::math::tools::toms748_solve([&](double across) { return stress(along, across).across; }, -2. * along,
+                                          2. * along, boost::math::tools::eps_tolerance<double>(40), n);
     return stress(along, 0.5 * (bracket.first + bracket.second)).along;
-  }
-  /// The same over the strain, without softening.
-  double stiffness() const {
-    const auto pull = elastic_stress(1., 0.), squeeze = elastic_stress(0., 1.);
-    return pull.along - pull.across * squeeze.along / squeeze.across;
   }
 
  private:
-  const BondLaw& law_;
+  BondLaw law_;
   double dilatation_factor_;  ///< g M
 
-  /// Within which the stress across changes its sign, for any Poisson's ratio.
-  static std::pair<double, double> across_range(double along) { return {-2. * along, 2. * along}; }
-
   /// Over directions, with what the dilatation adds to the stretch (operators/dilatation.hpp).
-  template <class ShareLeft>
-  Stress sum(double along, double across, ShareLeft share_left) const {
+  Stress stress(double along, double across) const {
     constexpr int n = 64;
     constexpr double half_pi = boost::math::constants::half_pi<double>();
     double weights = 0., stretches = 0.;
@@ -57,7 +41,8 @@ class UniformBody {
     for (int i = 0; i < n; ++i) {
       const double x = (i + 0.5) / n, cosine = dim == 2 ? std::cos(half_pi * x) : x;
       const double to_axis = cosine * cosine, from_axis = (1. - to_axis) / (dim - 1);
-      const double stretch = to_axis * along + (1. - to_axis) * across, share = share_left(stretch);
+      const double stretch = to_axis * along + (1. - to_axis) * across,
+                   share = stretch > 0. ? law_.share_left(stretch) : 1.;
       weights += share;
       stretches += share * stretch;
       of_stretch.along += share * stretch * to_axis;
@@ -86,7 +71,7 @@ double strength_over_limit(const BondLaw& law, double dilatational_ratio) {
   const UniformBody<dim> body(law, dilatational_ratio);
   const auto minimum = boost::math::tools::brent_find_minima(
       [&](double strain) { return -body.uniaxial_stress(strain * law.limit()); }, 0.9, largest, bits);
-  return -minimum.second / (body.stiffness() * law.limit());
+  return -minimum.second / UniformBody<dim>(BondLaw(), dilatational_ratio).uniaxial_stress(law.limit());
 }
 
 template <int dim>

@@ -12,13 +12,6 @@ bool Problem<dim>::breaks() const {
 }
 
 template <int dim>
-bool Problem<dim>::softens() const {
-  const auto is_soft = [](const auto& of) { return of.toughness.law.softens(); };
-  return std::any_of(materials.begin(), materials.end(), is_soft) ||
-         std::any_of(interfaces.begin(), interfaces.end(), is_soft);
-}
-
-template <int dim>
 std::vector<int> materials_of_elements(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
   std::vector<int> of_block;
   for (const auto& name : mesh.block_names) {

@@ -114,7 +114,7 @@ TEST_F(Softening, IsDamageByWhatItHasTaken) {
 
 TEST_F(Softening, IsRestoredFromItsHistories) {
   const std::size_t b = a_bond_between_elements();
-  body.bonds.restore({{b, {0.02F, 0.03F}}});
+  body.bonds.restore_softening({{b, {0.02F, 0.03F}}});
   EXPECT_NEAR(share_left(b), law.share_left(0.03), 1e-6);
   EXPECT_EQ(body.bonds.softening(b).accepted, 0.02F);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "perimorph/bonds/bond.hpp"
@@ -11,6 +12,9 @@ namespace perimorph::bonds {
 struct SofteningHistory {
   float accepted = 0.F, largest = 0.F;
 };
+
+/// Bonds of a rank, and what they have come to.
+using SofteningHistories = std::vector<std::pair<BondId, SofteningHistory>>;
 
 /// A bond whose softening has changed.
 struct SoftenedBond {

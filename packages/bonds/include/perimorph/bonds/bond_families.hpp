@@ -151,7 +151,7 @@ class BondFamilies {
 
   /// Softening that comes from elsewhere, after what is broken; the bonds without a history have none, or broke before.
   /// Local.
-  void restore(const std::vector<std::pair<BondId, SofteningHistory>>& histories);
+  void restore_softening(const SofteningHistories& histories);
 
   /// Elements of bonds that have softened are damaged from now on. Local.
   void note_softening();

@@ -15,9 +15,6 @@ struct SoftBond {
   std::array<double, 2> largest_stretches;
 };
 
-/// Bonds that this rank holds, and what they have come to.
-using SofteningHistories = std::vector<std::pair<bonds::BondId, bonds::SofteningHistory>>;
-
 /// One rank's share of a state by global ids, as it goes into a checkpoint or to another partition. From the shares of
 /// any number of ranks, any other number of ranks can go on.
 template <int dim>
@@ -40,7 +37,8 @@ BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, c
 
 /// The softened bonds that this rank holds, out of those of all ranks. Collective. @throws as above.
 template <int dim>
-SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology);
+bonds::SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved,
+                                        const Topology<dim>& topology);
 
 /// The displacement on all local degrees of freedom of the topology, [length]. Local.
 /// @param saved has that of all local elements

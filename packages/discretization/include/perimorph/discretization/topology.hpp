@@ -71,10 +71,8 @@ class Topology {
   /// BondFamilies::accept_softening(). Local.
   void accept_softening() { bonds_.accept_softening(); }
 
-  /// BondFamilies::restore(). Local.
-  void restore(const std::vector<std::pair<bonds::BondId, bonds::SofteningHistory>>& histories) {
-    bonds_.restore(histories);
-  }
+  /// BondFamilies::restore_softening(). Local.
+  void restore_softening(const bonds::SofteningHistories& histories) { bonds_.restore_softening(histories); }
 
   /// Flags of all local elements become those of their owners. Collective.
   void share(std::vector<char>& flags) const { element_exchange_.update(flags); }

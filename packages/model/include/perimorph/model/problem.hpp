@@ -43,8 +43,6 @@ struct Problem {
   double horizon() const { return materials[0].micromodulus.horizon; }  ///< [length]
   /// Whether anything can break.
   bool breaks() const;
-  /// Whether any bonds soften.
-  bool softens() const;
 };
 
 /// The place in the problem's list of each local element's material, (n_elements). Local.

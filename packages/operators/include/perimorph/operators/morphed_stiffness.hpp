@@ -49,8 +49,8 @@ class MorphedStiffness {
     return first_[element] < 0 ? e0(element) : reduced_[first_[element] + q];
   }
   bool has_several_materials() const { return materials_.size() > 1; }
-  /// is_zero() per local element; with several materials right for active elements only, until their owners have their
-  /// say.
+  /// is_zero() per local element; with several materials right for active elements only, until what the owners know
+  /// is shared.
   std::vector<char>& zero_flags() { return is_zero_; }
   int material_of(int element) const { return of_element_.empty() ? 0 : of_element_[element]; }
   const base::Stiffness<dim>& e0(int element) const { return materials_[material_of(element)].e0; }
