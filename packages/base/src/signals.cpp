@@ -41,9 +41,9 @@ Signals::Signals() {
 
 Signals::~Signals() {
   is_noting = false;
-  std::signal(SIGTERM, old_terminate_);
-  std::signal(SIGINT, old_interrupt_);
-  std::signal(SIGHUP, old_hang_up_);
+  std::signal(SIGTERM, ends_ ? SIG_IGN : old_terminate_);
+  std::signal(SIGINT, ends_ ? SIG_IGN : old_interrupt_);
+  std::signal(SIGHUP, ends_ ? SIG_IGN : old_hang_up_);
   std::signal(SIGUSR1, old_user_);
 }
 
@@ -52,6 +52,7 @@ Signals::Requests Signals::look(const Comm& comm) {
   checkpoint_asked = 0;
   const GlobalId stop = max(comm, static_cast<GlobalId>(stop_signal));
   const GlobalId asked = max(comm, static_cast<GlobalId>(is_asked));
+  ends_ = ends_ || stop != 0;
   return {name_of(static_cast<int>(stop)), asked > 0};
 }
 

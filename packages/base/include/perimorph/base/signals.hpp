@@ -8,7 +8,8 @@ namespace perimorph::base {
 
 /// While one of these lives, SIGTERM, SIGINT, SIGHUP (unless it was ignored) and SIGUSR1 do not end the program but are
 /// noted as requests, for a computation that asks for them where it can stop. A second one of the first three ends the
-/// program at once. One at a time: signals belong to the process.
+/// program at once; once the ranks have agreed to stop and this object is gone, they are ignored. One at a time:
+/// signals belong to the process.
 class Signals {
  public:
   Signals();
@@ -28,6 +29,8 @@ class Signals {
   static bool is_stop_asked();
 
  private:
+  /// Whether all ranks know of a request to stop: one that reaches this rank later still is the same, not another.
+  bool ends_ = false;
   void (*old_terminate_)(int);
   void (*old_interrupt_)(int);
   void (*old_hang_up_)(int);
