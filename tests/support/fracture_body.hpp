@@ -44,6 +44,7 @@ struct SpecimenIn {
   std::vector<materials::Material<dim>> others = {};   ///< beside the body's
   std::map<std::string, int> material_of_block = {};   ///< 1: the first of the others
   std::optional<materials::Toughness> interface = {};  ///< between any two materials; none: perfect
+  std::optional<model::MeasureControl<dim>> control = {};
 };
 using Specimen = SpecimenIn<2>;
 
@@ -74,6 +75,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
       specimen.is_proportional};
   problem.material_of_block = specimen.material_of_block;
   problem.interfaces = std::move(interfaces);
+  problem.control = specimen.control;
   return problem;
 }
 
@@ -117,12 +119,13 @@ struct SpecimenBodyIn {
   fracture::LoopPosition position = {};
 
   /// One increment of the adaptive loop. Returns the solves.
-  int advance(double load_factor) {
+  /// @param prescribed the load factor or, with control, the measure
+  int advance(double prescribed) {
     struct Count : fracture::LoopObserver<dim> {
       int solves = 0;
       void solved(int, const fracture::Body<dim>&) override { ++solves; }
     } count;
-    fracture::run_increment(body, load_factor, unlimited, count, position);
+    fracture::run_increment(body, prescribed, unlimited, count, position);
     return count.solves;
   }
 };

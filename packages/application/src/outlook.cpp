@@ -138,6 +138,15 @@ void check_that_bonds_can_break(const base::Comm& comm, const cases::Case& input
       input.file, input.peridynamics.horizon));
 }
 
+/// The increment in which the load is this share of what it is at the body's solution, which need not be whole.
+/// Collective.
+template <int dim>
+double increment_of(const model::Problem<dim>& problem, const fracture::Body<dim>& body, double share) {
+  if (!problem.control) return share * body.load_factor();
+  const auto& [rate, constant] = problem.control->value;
+  return (share * body.measured() - constant) / rate;
+}
+
 template <int dim>
 void describe_first_break(const base::Comm& comm, const cases::Case& input, const model::Problem<dim>& problem,
                           fracture::Body<dim>& body, const base::Log& log) {
@@ -145,7 +154,7 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
   describe_strengths(input, problem, depth(comm, body.mesh()), log);
   if (!problem.is_proportional) return;  // one solution says nothing of others
   const double last = input.loading.increments;
-  body.apply_load(last);
+  body.prescribe(problem.prescribed_in(input.loading.increments));
   try {
     body.solve(fracture::Accuracy::breaking);
   } catch (const base::ComputationError& error) {
@@ -154,12 +163,13 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
   }
   for (const auto& fallback : body.solver_fallbacks()) warn(log, input, {"/Solver: " + fallback});
   const double load = fracture::load_of_first_break(comm, body);
+  const double share = load / body.load_factor(), increment = increment_of(problem, body, share);
   if (std::isfinite(load)) {
     log->info("{}at load {:.4g}, in increment {:.0f} of {:.0f}{}",
               body.topology().bonds().softens() ? "first softening  " : "first break      ", load,
-              std::max(1., std::ceil(load)), last, largest_reaction(comm, input, body, load / last));
+              std::max(1., std::ceil(increment)), last, largest_reaction(comm, input, body, share));
   }
-  advise(log, input, cases::advice_on_load(input, load), spdlog::level::warn);
+  advise(log, input, cases::advice_on_load(input, increment), spdlog::level::warn);
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                            \

@@ -66,7 +66,7 @@ void check(const Resolved& resolved, Mistakes& mistakes) {
   for (const auto& crack : root.subs("Pre-Cracks")) check_pre_crack(crack, *dimension);
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);
   check_solver(root.sub("Solver"), has_dilatation(root), softens(root));
-  check_loading(root.sub("Loading"), softens(root));
+  check_loading(root.sub("Loading"), *dimension, softens(root));
   check_output(root.sub("Output"), *dimension);
 }
 

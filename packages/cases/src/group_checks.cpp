@@ -27,6 +27,7 @@ class GroupChecks {
     const auto is_held = check_conditions("Displacements", mesh_.node_sets, "nodes");
     check_conditions("Tractions", mesh_.side_sets, "sides");
     check_blocks();
+    check_measure();
     const ParameterList& output = list_.sublist("Output");
     if (!output.isParameter("Reactions")) return;
     for (const auto& group : output.get<Teuchos::Array<std::string>>("Reactions")) {
@@ -48,6 +49,14 @@ class GroupChecks {
       named.insert(group);
     }
     return named;
+  }
+
+  void check_measure() {
+    const ParameterList& measure = list_.sublist("Loading").sublist("Measure");
+    for (const char* name : {"Group", "Other Group"}) {
+      if (!measure.isParameter(name)) continue;
+      check(std::string("/Loading/Measure/") + name, measure.get<std::string>(name), mesh_.node_sets, "nodes");
+    }
   }
 
   void check_blocks() {

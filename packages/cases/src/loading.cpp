@@ -1,6 +1,31 @@
 #include "perimorph/cases/loading.hpp"
 
+#include <array>
+
+#include "choices.hpp"
+
 namespace perimorph::cases {
+
+namespace {
+
+constexpr std::array<Choice<Control>, 2> controls{{{"Load", Control::load}, {"Measure", Control::measure}}};
+
+void check_softening(const input::Values& section, bool softens) {
+  const double* fraction = section.number("Breaking Fraction");
+  if (softens && fraction != nullptr && *fraction < 1.) {
+    section.mistake("Breaking Fraction",
+                    fmt::format("found {}; with bonds that soften allowed is 1: at the critical stretch they hold "
+                                "nothing any more, and breaking some of them first would have no effect",
+                                *fraction));
+  }
+  const double* tolerance = section.number("Softening Tolerance");
+  if (softens || tolerance == nullptr || *tolerance == model::NumericalOptions().softening_tolerance) return;
+  section.mistake("Softening Tolerance",
+                  fmt::format("found {}, but no bonds soften; allowed is it with a \"Bond Law\" other than \"Brittle\"",
+                              *tolerance));
+}
+
+}  // namespace
 
 void declare(const input::Section& section, Loading& loading, model::NumericalOptions& numerical) {
   using namespace input;
@@ -9,6 +34,13 @@ void declare(const input::Section& section, Loading& loading, model::NumericalOp
       "Increments", loading.increments, 100, count(),
       "Load steps k = 1, 2, ... up to this one. Before the first break they cost next to nothing. With few large ones "
       "the first break is known only to within a large step, and a crack that would grow slowly jumps.");
+  section.choice("Control", loading.control, controls,
+                 "What increments prescribe. With Load the load factor, which is the increment's number k. With "
+                 "Measure a displacement that grows with the crack, such as the opening of its mouth: the load "
+                 "factor follows, up and down, so that a load past its peak and a snap-back are followed instead of "
+                 "jumped over.");
+  declare(section.section("Measure", "The displacement that increments prescribe with \"Control\" = \"Measure\"."),
+          loading.measure);
   changeable.parameter("Maximum Damage Iterations", loading.max_damage_iterations, count(),
                        "Solutions within one increment, after which the run ends with status 3. An unstable crack "
                        "takes hundreds to thousands.");
@@ -24,19 +56,9 @@ void declare(const input::Section& section, Loading& loading, model::NumericalOp
       "share of the reactions [-]. Only for bonds that soften; the rest softens in the next increment.");
 }
 
-void check_loading(const input::Values& section, bool softens) {
-  const double* fraction = section.number("Breaking Fraction");
-  if (softens && fraction != nullptr && *fraction < 1.) {
-    section.mistake("Breaking Fraction",
-                    fmt::format("found {}; with bonds that soften allowed is 1: at the critical stretch they hold "
-                                "nothing any more, and breaking some of them first would have no effect",
-                                *fraction));
-  }
-  const double* tolerance = section.number("Softening Tolerance");
-  if (softens || tolerance == nullptr || *tolerance == model::NumericalOptions().softening_tolerance) return;
-  section.mistake("Softening Tolerance",
-                  fmt::format("found {}, but no bonds soften; allowed is it with a \"Bond Law\" other than \"Brittle\"",
-                              *tolerance));
+void check_loading(const input::Values& section, int dimension, bool softens) {
+  check_measure_control(section, dimension);
+  check_softening(section, softens);
 }
 
 }  // namespace perimorph::cases

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <memory>
 
 #include "body_parts.hpp"
 #include "group_checks.hpp"
@@ -53,6 +54,7 @@ class Checks {
     check_contradictions();
     if (are_supports_known) check_free_motions(input_, mesh_, mistakes_);
     if (!mistakes_.none_in("/Mesh")) return;  // lengths may be wrong
+    check_measured_points();
     check_probes();
     if (!mistakes_.none_in("/Peridynamics")) return;
     check_longest_horizon();
@@ -64,24 +66,32 @@ class Checks {
     mistakes_.add(input::line_of(input_.lines, path), path, what);
   }
 
-  // ---- probes ----
+  // ---- points at which something is measured ----
 
   void check_probes() {
-    const elements::Locator<dim> locator(mesh_);
     for (const auto& probe : input_.output.probes) {
-      for (const auto& x : places_of<dim>(probe)) {
-        if (locator.find(x)) continue;
-        const auto is_nearer = [&](const Point<dim>& a, const Point<dim>& b) {
-          return (a - x).norm() < (b - x).norm();
-        };
-        const auto& nearest = *std::min_element(mesh_.coordinates.begin(), mesh_.coordinates.end(), is_nearer);
-        add("/Output/Probes/" + probe.name + "/Points",
-            fmt::format(
-                "({:.6g}) is outside the body; allowed are places in it, the nearest node of which is at ({:.6g})",
-                fmt::join(x.begin(), x.end(), ", "), fmt::join(nearest.begin(), nearest.end(), ", ")));
-        break;  // one place of a line says enough
-      }
+      check_inside("/Output/Probes/" + probe.name + "/Points", places_of<dim>(probe));
     }
+  }
+
+  void check_measured_points() {
+    const auto& measure = input_.loading.measure;
+    if (!measure.point.empty()) check_inside("/Loading/Measure/Point", {point<dim>(measure.point)});
+    if (!measure.other_point.empty()) check_inside("/Loading/Measure/Other Point", {point<dim>(measure.other_point)});
+  }
+
+  /// One place of a line says enough.
+  void check_inside(const std::string& path, const std::vector<Point<dim>>& places) {
+    if (!locator_) locator_ = std::make_unique<elements::Locator<dim>>(mesh_);
+    const auto outside = std::find_if(places.begin(), places.end(), [&](const auto& x) { return !locator_->find(x); });
+    if (outside == places.end()) return;
+    const auto is_nearer = [&](const Point<dim>& a, const Point<dim>& b) {
+      return (a - *outside).norm() < (b - *outside).norm();
+    };
+    const auto& nearest = *std::min_element(mesh_.coordinates.begin(), mesh_.coordinates.end(), is_nearer);
+    add(path,
+        fmt::format("({:.6g}) is outside the body; allowed are places in it, the nearest node of which is at ({:.6g})",
+                    fmt::join(outside->begin(), outside->end(), ", "), fmt::join(nearest.begin(), nearest.end(), ", ")));
   }
 
   // ---- contradictions ----
@@ -142,6 +152,7 @@ class Checks {
   const Case& input_;
   const mesh::Mesh<dim>& mesh_;
   Mistakes& mistakes_;
+  std::unique_ptr<elements::Locator<dim>> locator_;  ///< made when it is needed
 };
 
 }  // namespace

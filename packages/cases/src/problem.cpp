@@ -32,6 +32,21 @@ discretization::Loads<dim> make_loads(const Case& input) {
           std::move(weight)};
 }
 
+template <int dim>
+std::optional<model::MeasureControl<dim>> make_control(const Loading& loading) {
+  if (loading.control == Control::load) return std::nullopt;
+  const MeasureControl& m = loading.measure;
+  const auto place = [](const std::string& group, const std::vector<double>& x) {
+    discretization::MeasuredPlace<dim> measured{group};
+    if (!x.empty()) measured.point = point<dim>(x);
+    return measured;
+  };
+  discretization::MeasuredDisplacement<dim> measured{
+      place(m.group, m.point), std::nullopt, point<dim>(m.direction).normalized()};
+  if (!m.other_group.empty() || !m.other_point.empty()) measured.other = place(m.other_group, m.other_point);
+  return model::MeasureControl<dim>{std::move(measured), {m.rate, m.constant}};
+}
+
 /// Strength and fracture energy of bonds that soften must go together.
 /// @param length the characteristic one, to which the least energy is proportional, [length]
 void check_energy(const std::string& path, const Fracture& fracture, double least_energy, double length) {
@@ -131,6 +146,7 @@ model::Problem<dim> make_problem(const Case& input) {
     check_numbers(input, problem.materials.back(), solid);
   }
   problem.interfaces = make_interfaces(input, problem.materials);
+  problem.control = make_control<dim>(input.loading);
   problem.calibration = input.material.calibration;
   for (const auto& seed : input.morphing.seeds) {
     if (seed.shape == SeedShape::automatic) {

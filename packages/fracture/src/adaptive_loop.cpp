@@ -41,16 +41,16 @@ bool break_until_quiet(Body<dim>& body, const LoopLimits& limits, LoopObserver<d
 }  // namespace
 
 template <int dim>
-LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& limits, LoopObserver<dim>& observer,
+LoopEnd run_increment(Body<dim>& body, double prescribed, const LoopLimits& limits, LoopObserver<dim>& observer,
                       LoopPosition& position) {
-  PERIMORPH_ASSERT(std::isfinite(load_factor), "load factor {}", load_factor);
+  PERIMORPH_ASSERT(std::isfinite(prescribed), "prescribed {}", prescribed);
   PERIMORPH_ASSERT(limits.max_damage_iterations > 0 && limits.max_zone_growths > 0, "at most {} solves and {} growths",
                    limits.max_damage_iterations, limits.max_zone_growths);
   PERIMORPH_ASSERT(position.increment >= 0 && position.growths >= 0 && position.damage_iterations >= 0,
                    "after increment {}, {} growths, {} solves", position.increment, position.growths,
                    position.damage_iterations);
   const int increment = position.increment + 1;
-  if (position.damage_iterations == 0) body.apply_load(load_factor);
+  body.prescribe(prescribed, position.damage_iterations > 0);
   do {
     if (!position.is_solved) {
       check_limit(position.growths, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
@@ -71,7 +71,7 @@ LoopEnd run_adaptive_loop(Body<dim>& body, const LoopLimits& limits, LoopObserve
                           LoopPosition& position) {
   auto end = LoopEnd::done;
   while (end == LoopEnd::done && position.increment < limits.increments) {
-    end = run_increment(body, position.increment + 1, limits, observer, position);
+    end = run_increment(body, body.problem().prescribed_in(position.increment + 1), limits, observer, position);
   }
   return end;
 }

@@ -110,7 +110,7 @@ void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mes
   NumericalOptions accurate = options;
   accurate.tolerance = std::min(options.tolerance, 1e-9);  // much finer than strains are told apart
   Body<dim> body(comm, mesh, elastic, accurate, profile);
-  body.apply_load(last_increment);
+  body.prescribe(problem.prescribed_in(last_increment));
   body.update_topology();
   body.solve(Accuracy::accepted);
   for (const auto& seed : problem.automatic_seeds) {
@@ -121,7 +121,7 @@ void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mes
     for (const auto& place : places) {
       problem.seeds.push_back(morphing::Zone<dim>::ball(position(place), seed.inner_radius, seed.outer_radius));
       log->info("seed             {}: at ({:.6g}), where the principal strain of the elastic body is {:.4g} of load {}",
-                seed.name, fmt::join(place.centroid, ", "), place.strain, last_increment);
+                seed.name, fmt::join(place.centroid, ", "), place.strain, body.load_factor());
     }
   }
   problem.automatic_seeds.clear();

@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -60,6 +61,7 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
                    options.tolerance, options.damage_tolerance);
+  if (problem.control) measure_.emplace(*comm, mesh, problem.control->measured);
 }
 
 template <int dim>
@@ -75,6 +77,22 @@ void Body<dim>::apply_load(double load_factor) {
   }
   state_.load_factor = load_factor;
   system_.forget_forces();
+}
+
+template <int dim>
+void Body<dim>::prescribe(double value, bool has_begun) {
+  prescribed_ = value;
+  if (has_begun) return;
+  if (!measure_) return apply_load(value);
+  const double last = state_.load_factor;
+  if (!problem_.is_proportional) return apply_load(last);
+  const double scale = value / measured();
+  apply_load(std::isfinite(scale) && scale > 0. ? scale * last : 1.);
+}
+
+template <int dim>
+double Body<dim>::measured() const {
+  return measure_ && topology_.is_built() ? measure_->of(*comm_, topology_.dofs(), displacement()) : 0.;
 }
 
 template <int dim>
@@ -99,6 +117,7 @@ void Body<dim>::rebuild(bool has_grown) {
     if (change.numbering) move_to_new_numbering();
   }
   assemble();
+  if (measure_ && state_.counts.topologies > 0) renew_forces();
   state_.break_calls_before_topology = state_.break_calls;
   ++state_.counts.topologies;
 }
@@ -126,12 +145,24 @@ template <int dim>
 void Body<dim>::solve(Accuracy accuracy) {
   PERIMORPH_ASSERT(topology_.is_built(), "there is no topology to solve on");
   const auto u = base::field(state_.displacement);
-  const auto before = state_.displacement;
   if (!system_.has_forces()) {
     system_.apply_load(state_.load_factor);
     system_.space().expand(u, state_.load_factor);
     system_.evaluate(u);
   }
+  balance(accuracy);
+  if (measure_) {
+    follow_measure();
+    balance(accuracy);
+  }
+  state_.energies.external_work +=
+      base::sum(*comm_, work_.up_to(u, system_.internal_force(), system_.loads(), power_of_supports()));
+}
+
+template <int dim>
+void Body<dim>::balance(Accuracy accuracy) {
+  const auto u = base::field(state_.displacement);
+  const auto before = state_.displacement;
   const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
   const auto outcome = equilibrium_.find(system_, u, {tolerance, state_.force_scale, state_.counts.broken_bonds > 0});
   state_.counts.linear_solves += outcome.linear_solves;
@@ -142,8 +173,51 @@ void Body<dim>::solve(Accuracy accuracy) {
     system_.evaluate(displacement());
     throw UnfinishedIncrement(reason);
   }
-  state_.energies.external_work +=
-      base::sum(*comm_, work_.up_to(u, system_.internal_force(), system_.loads(), power_of_supports()));
+}
+
+/// While nothing breaks, what is measured is linear in the load factor.
+template <int dim>
+void Body<dim>::follow_measure() {
+  const auto response = load_response();
+  const double rate = measure_->of(*comm_, topology_.dofs(), base::field(response));
+  if (rate <= 0.) {
+    throw UnfinishedIncrement(
+        fmt::format("no load gives the measure /Loading/Measure prescribes, {:.6g}: it is {:.6g}, and changes by {:.6g} "
+                    "with the load factor, where it would have to grow; {}",
+                    prescribed_, measured(), rate,
+                    state_.counts.broken_bonds == 0 ? "does its Direction point against the load?"
+                                                    : "the crack has left the place where it is measured"));
+  }
+  const double step = (prescribed_ - measured()) / rate;
+  const auto u = base::field(state_.displacement);
+  for (int dof = 0; dof < u.size(); ++dof) u[dof] += step * response[dof];
+  if (problem_.is_proportional) state_.force_scale *= std::min(1., 1. + step / state_.load_factor);
+  state_.load_factor += step;
+  state_.load_step += step;
+  work_.load_changes(state_.load_step);
+  system_.apply_load(state_.load_factor);
+  system_.space().expand(u, state_.load_factor);
+  system_.evaluate(u);
+}
+
+/// How the displacement grows with the load factor, on all local degrees of freedom, [length].
+template <int dim>
+std::vector<double> Body<dim>::load_response() {
+  if (problem_.is_proportional) {
+    auto response = state_.displacement;
+    for (double& u : response) u /= state_.load_factor;
+    return response;
+  }
+  operators::NonlinearSystem::Vector force(system_.unknowns()), change(system_.unknowns());
+  system_.load_derivative(force);
+  const auto outcome = equilibrium_.linear_solver().solve(force, change, options_.damage_tolerance * force.norm2());
+  ++state_.counts.linear_solves;
+  state_.counts.cg_iterations += outcome.iterations;
+  if (!outcome.converged) throw UnfinishedIncrement(reason_for(outcome.trouble));
+  auto response = system_.space().prescribed_rates();
+  const auto free = system_.space().expand_change(change);
+  for (int dof = 0; dof < free.size(); ++dof) response[dof] += free[dof];
+  return response;
 }
 
 /// Of this rank's: how fast they do work as the load factor grows, where bonds soften; 0 otherwise, [energy].

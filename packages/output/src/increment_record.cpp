@@ -11,7 +11,7 @@ double jump_loss(const Record& r) { return r.energies.external_work - r.energies
 
 }  // namespace
 
-std::vector<Column> history_columns(const std::vector<Reaction>& reactions) {
+std::vector<Column> history_columns(const std::vector<Reaction>& reactions, bool is_measured) {
   const auto count = [](base::GlobalId discretization::Counts::*which) {
     return [which](const Record& r) { return static_cast<double>(r.counts.*which); };
   };
@@ -35,6 +35,7 @@ std::vector<Column> history_columns(const std::vector<Reaction>& reactions) {
       {"jump_loss", jump_loss},
       {"overlap", [](const Record& r) { return r.overlap; }},
   };
+  if (is_measured) columns.push_back({"measure", [](const Record& r) { return r.measured; }});
   const auto of_each = [&](const std::string& prefix, double Reaction::*which) {
     for (std::size_t i = 0; i < reactions.size(); ++i) {
       columns.push_back({prefix + reactions[i].column, [=](const Record& r) { return r.reactions.at(i).*which; }});

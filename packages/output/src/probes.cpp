@@ -9,7 +9,6 @@
 
 namespace perimorph::output {
 
-using base::GlobalId;
 using base::Point;
 using fracture::Body;
 
@@ -49,24 +48,9 @@ Probes<dim>::Probes(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const s
     int number = 0;
     for (const auto& position : cases::places_of<dim>(probe)) places_.push_back({probe.name, ++number, position});
   }
-  struct Candidate {
-    int place;
-    GlobalId element;
-  };
-  const elements::Locator<dim> locator(mesh);
-  std::vector<Candidate> candidates;
-  for (int i = 0; i < static_cast<int>(places_.size()); ++i) {
-    const auto found = locator.find(places_[i].position);
-    if (!found) continue;
-    own_.push_back({i, *found});
-    candidates.push_back({i, mesh.element_ids[found->element]});
-  }
-  std::vector<GlobalId> lowest(places_.size(), mesh.n_global_elements);
-  for (const auto& candidate : base::gather_on_all(comm, candidates)) {
-    lowest[candidate.place] = std::min(lowest[candidate.place], candidate.element);
-  }
-  const auto is_others = [&](const Located& l) { return mesh.element_ids[l.location.element] != lowest[l.place]; };
-  own_.erase(std::remove_if(own_.begin(), own_.end(), is_others), own_.end());
+  std::vector<Point<dim>> positions;
+  for (const auto& place : places_) positions.push_back(place.position);
+  own_ = discretization::sampled_here(comm, mesh, positions);
 }
 
 template <int dim>

@@ -58,7 +58,7 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::C
       last_increment_(input.loading.increments),
       totals_(earlier ? earlier->totals : Totals{}),
       reactions_(reactions_after<dim>(input.output.reactions, earlier)),
-      columns_(history_columns(reactions_)),
+      columns_(history_columns(reactions_, input.loading.control == cases::Control::measure)),
       unfinished_{unfinished_file(folder, input.name), input.title, names_of(columns_), lines_of(input.resolved),
                   input.output.spread_files},
       console_(std::move(console), profile, last_increment_, input.peridynamics.horizon,
@@ -119,7 +119,8 @@ IncrementRecord Results<dim>::record_of(int increment, const Body<dim>& body) {
           seconds(),
           overlap.depth,
           {overlap.place.begin(), overlap.place.end()},
-          reactions_};
+          reactions_,
+          body.measured()};
 }
 
 template <int dim>

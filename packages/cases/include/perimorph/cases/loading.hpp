@@ -1,7 +1,6 @@
 #pragma once
 
-#include "perimorph/input/section.hpp"
-#include "perimorph/input/values.hpp"
+#include "perimorph/cases/measure_control.hpp"
 #include "perimorph/model/numerical_options.hpp"
 
 namespace perimorph::cases {
@@ -9,6 +8,8 @@ namespace perimorph::cases {
 /// How far to go, and when to give up.
 struct Loading {
   int increments = 0;
+  Control control = Control::load;
+  MeasureControl measure;
   int max_damage_iterations = 20000;  ///< solves within one increment
   int max_zone_growths = 5000;        ///< changes of topology within one increment
 };
@@ -16,6 +17,6 @@ struct Loading {
 void declare(const input::Section& section, Loading& loading, model::NumericalOptions& numerical);
 
 /// @param softens whether any bonds do
-void check_loading(const input::Values& section, bool softens);
+void check_loading(const input::Values& section, int dimension, bool softens);
 
 }  // namespace perimorph::cases

@@ -45,13 +45,13 @@ class LoopObserver {
 
 /// One increment of the adaptive algorithm of WHL19, Fig. 5, the one after the position's: bonds break and the
 /// peridynamic zone grows until neither happens any more. Collective.
-/// @param load_factor of the increment [-]; a position within it has applied it already
+/// @param prescribed by the increment, as Body::prescribe() takes it
 /// @throws UnfinishedIncrement if there is no solution or a limit is passed, ComputationError if the solver fails
 template <int dim>
-LoopEnd run_increment(Body<dim>& body, double load_factor, const LoopLimits& limits, LoopObserver<dim>& observer,
+LoopEnd run_increment(Body<dim>& body, double prescribed, const LoopLimits& limits, LoopObserver<dim>& observer,
                       LoopPosition& position);
 
-/// The adaptive algorithm of WHL19, Fig. 5: increments whose load factor is their number, from the position on.
+/// The adaptive algorithm of WHL19, Fig. 5: the increments of the body's problem, from the position on.
 /// Collective. @throws as run_increment; all accepted increments have been observed.
 template <int dim>
 LoopEnd run_adaptive_loop(Body<dim>& body, const LoopLimits& limits, LoopObserver<dim>& observer,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "perimorph/base/errors.hpp"
 #include "perimorph/discretization/saved_state.hpp"
 #include "perimorph/fracture/external_work.hpp"
@@ -39,11 +41,16 @@ class Body {
   /// @param load_factor [-]
   void apply_load(double load_factor);
 
+  /// Begins an increment, or goes on in one that has begun.
+  /// @param value the load factor [-], or what is to be measured, [length] (model::Problem::prescribed_in)
+  void prescribe(double value, bool has_begun = false);
+
   /// Lets alpha, bonds, classes and DGFE follow the flag points and the damage, and renumbers; only if they changed.
   /// @throws UserError at the first call, if a pre-crack cuts through elements outside the peridynamic zone.
   void update_topology();
 
-  /// Solves R(u; bonds, load) = 0 for the displacement; costs nothing if it is accurate enough already.
+  /// Solves R(u; bonds, load) = 0 for the displacement; costs nothing if it is accurate enough already. Where a measure
+  /// is prescribed, the load factor follows it: u is linear in it while no bond breaks.
   /// @throws UnfinishedIncrement if none is found, with the reason where a part of the body is free; ComputationError
   /// if the solver fails.
   void solve(Accuracy accuracy);
@@ -87,10 +94,14 @@ class Body {
   const discretization::Topology<dim>& topology() const { return topology_; }
   const operators::CoupledSystem<dim>& system() const { return system_; }
   operators::CoupledModel<dim> model() const { return system_.model(); }
+  const Problem<dim>& problem() const { return problem_; }
   const mesh::Mesh<dim>& mesh() const { return topology_.mesh(); }
   const Counts& counts() const { return state_.counts; }
   double load_factor() const { return state_.load_factor; }
   const std::vector<std::string>& solver_fallbacks() const { return equilibrium_.linear_solver().fallbacks(); }
+  /// What is measured for control, [length]; 0 without. Collective.
+  double measured() const;
+
   /// On all local degrees of freedom, [length].
   base::ConstField displacement() const { return base::field(state_.displacement); }
 
@@ -109,6 +120,8 @@ class Body {
   operators::CoupledSystem<dim> system_;
   solvers::Equilibrium equilibrium_;
   ExternalWork work_;
+  std::optional<discretization::Measure<dim>> measure_;  ///< that the load factor follows
+  double prescribed_ = 0.;                               ///< of it, [length]
   std::vector<operators::FacingSides> facing_sides_;  ///< that may be crack faces, in this topology
 
   bool grow();
@@ -116,6 +129,9 @@ class Body {
   void move_to_new_numbering();
   void assemble();
   void publish(const bonds::BondChange& change);
+  void balance(Accuracy accuracy);
+  void follow_measure();
+  std::vector<double> load_response();
   double power_of_supports() const;
   bool is_settled(const bonds::BondChange& change) const;
   double elastic_energy() const;

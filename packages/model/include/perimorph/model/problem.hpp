@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "perimorph/base/parallel.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
+#include "perimorph/discretization/measure.hpp"
 #include "perimorph/materials/bond_materials.hpp"
 #include "perimorph/materials/material.hpp"
 #include "perimorph/mesh/mesh.hpp"
@@ -25,6 +27,13 @@ struct AutomaticSeed {
 /// runs at K = sqrt(E G_c) on this mesh (calibration.hpp).
 enum class Calibration { analytic, mesh_consistent };
 
+/// A measured displacement that the load factor follows, instead of being prescribed itself.
+template <int dim>
+struct MeasureControl {
+  discretization::MeasuredDisplacement<dim> measured;
+  discretization::Ramp<double> value;  ///< by the increment's number, [length]
+};
+
 /// What is to be computed, in the terms of the packages that compute it.
 template <int dim>
 struct Problem {
@@ -38,6 +47,10 @@ struct Problem {
   Calibration calibration = Calibration::analytic;
   std::map<std::string, int> material_of_block = {};  ///< place in the list, by the name of a block of the mesh
   std::vector<materials::Interface> interfaces = {};  ///< between any two of the materials
+  std::optional<MeasureControl<dim>> control = {};    ///< none: the load factor is the increment's number
+
+  /// What an increment prescribes: its load factor [-], or with control what is measured, [length].
+  double prescribed_in(int increment) const { return control ? control->value.at(increment) : increment; }
 
   bool has_zones() const { return !seeds.empty() || !automatic_seeds.empty(); }
   double horizon() const { return materials[0].micromodulus.horizon; }  ///< [length]

@@ -16,6 +16,7 @@ struct IncrementRecord {
   double overlap = 0.;                ///< of crack faces, the largest, [length]
   std::vector<double> overlap_place;  ///< where that is in the reference mesh, (dim), [length]
   std::vector<Reaction> reactions;
+  double measured = 0.;  ///< by which increments are controlled, [length]
 };
 
 /// A column of history.csv, and the global variable of that name in the fields.
@@ -26,6 +27,7 @@ struct Column {
 
 /// All of them, in the order in which they are written.
 /// @param reactions those that each record will have
-std::vector<Column> history_columns(const std::vector<Reaction>& reactions);
+/// @param is_measured whether increments prescribe a measure
+std::vector<Column> history_columns(const std::vector<Reaction>& reactions, bool is_measured = false);
 
 }  // namespace perimorph::output

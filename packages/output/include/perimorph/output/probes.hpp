@@ -5,13 +5,12 @@
 #include <vector>
 
 #include "perimorph/cases/output.hpp"
-#include "perimorph/elements/locator.hpp"
+#include "perimorph/discretization/measure.hpp"
 #include "perimorph/fracture/body.hpp"
 
 namespace perimorph::output {
 
-/// All probes of a case in one mesh. A place is in the element of the lowest global id that holds it, whatever the
-/// ranks: where elements have parted, on one side of the crack.
+/// All probes of a case in one mesh. Where elements have parted, a place is on one side of the crack.
 template <int dim>
 class Probes {
  public:
@@ -39,11 +38,7 @@ class Probes {
 
  private:
   std::vector<Place> places_;
-  struct Located {
-    int place;
-    elements::Location location;
-  };
-  std::vector<Located> own_;
+  std::vector<discretization::Sampled> own_;
 };
 
 }  // namespace perimorph::output
