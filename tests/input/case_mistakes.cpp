@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "case_fixture.hpp"
+#include "perimorph/cases/problem.hpp"
 
 namespace {
 
@@ -364,6 +365,44 @@ TEST_F(CaseFile, AMatrixCannotHoldDilatation) {
       HasSubstr("--set: /Solver/Operator: found \"CRS\"; with this Poisson's ratio allowed is \"Matrix-Free\" or "
                 "\"On-the-Fly\": through the dilatation"));
   EXPECT_EQ(read(valid, {"Solver/Operator=CRS"}).numerical.operator_form, perimorph::operators::OperatorForm::crs);
+}
+
+// --- control by a measure ---
+
+TEST_F(CaseFile, AMeasureIsRead) {
+  const perimorph::cases::Case input =
+      read(valid, {"Loading/Control=Measure", "Loading/Measure/Group=right", "Loading/Measure/Other Point={1, 5}",
+                   "Loading/Measure/Direction={0, 2}", "Loading/Measure/Rate=0.5"});
+  const auto problem = perimorph::cases::make_problem<2>(input);
+  const auto& control = *problem.control;
+  EXPECT_EQ(control.measured.place.group, "right");
+  EXPECT_EQ(*control.measured.other->point, (perimorph::base::Point<2>(1., 5.)));
+  EXPECT_EQ(control.measured.direction, (perimorph::base::Point<2>(0., 1.)));
+  EXPECT_EQ(control.value.at(4.), 2.);
+}
+
+TEST_F(CaseFile, MistakesOfAMeasureAreNamed) {
+  const std::string path = "Loading/Measure/", on = "Loading/Control=Measure", group = path + "Group=right",
+                    direction = path + "Direction={1, 0}", rate = path + "Rate=1";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
+      {{rate}, "/Loading/Measure/Rate: found with \"Control\" = \"Load\", where it has no effect"},
+      {{on, direction, rate},
+       "/Loading/Measure/Group: missing; \"Control\" = \"Measure\" needs a group or a \"Point\""},
+      {{on, group, rate}, "/Loading/Measure/Direction: missing"},
+      {{on, group, direction}, "/Loading/Measure/Rate: missing"},
+      {{on, group, direction, path + "Rate=0"}, "/Loading/Measure/Rate: found 0; allowed is any other number"},
+      {{on, group, path + "Direction={0, 0}", rate},
+       "/Loading/Measure/Direction: found {0, 0}; allowed is a direction"},
+      {{on, group, path + "Direction={1, 0, 0}", rate}, "/Loading/Measure/Direction: found {1, 0, 0}; allowed are 2"},
+      {{on, group, path + "Point={1, 1}", direction, rate}, "/Loading/Measure/Point: found beside \"Group\""},
+      {{on, path + "Point={1}", direction, rate}, "/Loading/Measure/Point: found {1}; allowed are 2 numbers"},
+      {{on, group, path + "Other Group=left", path + "Other Point={1, 1}", direction, rate},
+       "/Loading/Measure/Other Point: found beside \"Other Group\""},
+      {{on, path + "Group=rihgt", direction, rate, "Solver/Tolerence=1"},
+       "/Loading/Measure/Group: the mesh plate.msh has no group of nodes called \"rihgt\""},
+      {{on, path + "Point={1, 1}", path + "Other Point={500, 1}", direction, rate, "Solver/Tolerence=1"},
+       "/Loading/Measure/Other Point: (500, 1) is outside the body; allowed are places in it"}};
+  for (const auto& [options, text] : mistakes) EXPECT_THAT(error(valid, options), HasSubstr(text));
 }
 
 // --- several materials ---

@@ -196,6 +196,22 @@ class Softening(InThreeDimensions):
                 self.assert_continues(whole, 10, *EVERY, ranks=ranks)
 
 
+class PathFollowing(InThreeDimensions):
+    CASE = changed(InThreeDimensions.CASE, {"Loading/Control": "Measure", "Loading/Measure": {
+        "Group": "upper", "Other Point": [1.0, 2.5, 1.0], "Direction": [0.0, 1.0, 0.0], "Rate": 0.1}})
+
+    def test_a_restart_ends_with_the_same_bits(self):
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.output = self.folder / f"whole-{ranks}"
+                self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(float(whole[0][-1]["broken_bonds"]), 100)
+                self.assertAlmostEqual(float(whole[0][-1]["measure"]), 0.1 * INCREMENTS, places=6)
+                self.output = self.folder / f"out-{ranks}"
+                self.assert_continues(whole, INCREMENTS - 2, *EVERY, ranks=ranks)
+
+
 class Mistakes(InThreeDimensions):
     """Status 2 on any number of ranks, with a message that says where and what."""
 

@@ -172,6 +172,32 @@ class Softening(GrowingCrack):
                                            delta=0.01 * float(rows[-1]["dissipated_energy"]))
 
 
+class PathFollowing(GrowingCrack):
+    """The opening of the slit is prescribed, beside a constant load in the second case."""
+
+    CASE = changed(GrowingCrack.CASE, {"Loading/Control": "Measure", "Loading/Measure": {
+        "Point": [1.0, 7.5], "Other Point": [1.0, 4.5], "Direction": [0.0, 1.0], "Rate": 0.1}})
+    BESIDE_A_CONSTANT_LOAD = ["--set", "Boundary Conditions/Body Force/Constant={0.2, 0.1}"]
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stop, options in [(1, 12, []), (4, 10, []), (2, 13, self.BESIDE_A_CONSTANT_LOAD)]:
+            with self.subTest(ranks=ranks):
+                self.run_until(INCREMENTS, *EVERY, *options, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 100)
+                self.assert_continues(whole, stop, *EVERY, *options, ranks=ranks)
+
+    def test_on_other_ranks_the_same_bonds_break_at_the_same_loads(self):
+        self.run_until(INCREMENTS)
+        alone = self.rows()
+        self.run_until(INCREMENTS, ranks=4)
+        for k, (row, other) in enumerate(zip(alone, self.rows(), strict=True), start=1):
+            self.assertAlmostEqual(float(row["measure"]), 0.1 * k, places=6)
+            for name in ["broken_bonds", "damaged_elements", "dgfe_elements"]:
+                self.assertEqual(row[name], other[name])
+            self.assertAlmostEqual(float(row["load_factor"]) / float(other["load_factor"]), 1, places=5)
+
+
 class SeveralMaterials(GrowingCrack):
     """Two materials in a pattern, and interfaces weaker than both."""
 

@@ -98,6 +98,7 @@ def curves_of(history, x=None, y=None):
             history[name]
         return [(x or "load_factor", name) for name in y]
     reactions = history.nonzero("reaction_")
+    x = x or ("measure" if "measure" in history.columns else None)
     if x:
         return [(x, name) for name in reactions or ["load_factor"]]
     displacements = {name: "displacement_" + name[len("reaction_"):] for name in reactions}

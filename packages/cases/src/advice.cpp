@@ -205,10 +205,10 @@ std::vector<std::string> advice_on_load(const Case& input, double first_break) {
                     is_far ? ". Are loads in the units of material and mesh?" : "")};
   }
   if (first_break >= least_first_break) return {};
-  return {
-      fmt::format("/Boundary Conditions: the first increment is already {:.4g} times the load at which the first bond "
-                  "breaks: loads should grow in smaller steps. Are they in the units of material and mesh?",
-                  1. / first_break)};
+  return {fmt::format(
+      "{}: the first increment is already {:.4g} times the load at which the first bond "
+      "breaks: loads should grow in smaller steps. Are they in the units of material and mesh?",
+      input.loading.control == Control::load ? "/Boundary Conditions" : "/Loading/Measure/Rate", 1. / first_break)};
 }
 
 }  // namespace perimorph::cases

@@ -44,7 +44,8 @@ void declare(const input::Section& section, MeasureControl& measure) {
                    "measure must grow with the load.");
   section.optional("Rate", measure.rate, 0.001, any_number(),
                    "[length per increment]: in increment k the measure is Rate * k + Constant.");
-  section.parameter("Constant", measure.constant, any_number(), "[length], what is measured before the first increment.");
+  section.parameter("Constant", measure.constant, any_number(),
+                    "[length], what is measured before the first increment.");
 }
 
 void check_measure_control(const input::Values& loading, int dimension) {
@@ -63,8 +64,8 @@ void check_measure_control(const input::Values& loading, int dimension) {
   for (const char* name : {"Point", "Other Point", "Direction"}) check_size(measure, name, dimension);
   const auto* direction = measure.numbers("Direction");
   if (direction != nullptr && is_zero(*direction)) {
-    measure.mistake("Direction", fmt::format("found {}; allowed is a direction, which has a length",
-                                             measure.shown("Direction")));
+    measure.mistake("Direction",
+                    fmt::format("found {}; allowed is a direction, which has a length", measure.shown("Direction")));
   }
   const double* rate = measure.number("Rate");
   if (rate != nullptr && *rate == 0.) {

@@ -89,9 +89,9 @@ class Checks {
       return (a - *outside).norm() < (b - *outside).norm();
     };
     const auto& nearest = *std::min_element(mesh_.coordinates.begin(), mesh_.coordinates.end(), is_nearer);
-    add(path,
-        fmt::format("({:.6g}) is outside the body; allowed are places in it, the nearest node of which is at ({:.6g})",
-                    fmt::join(outside->begin(), outside->end(), ", "), fmt::join(nearest.begin(), nearest.end(), ", ")));
+    add(path, fmt::format(
+                  "({:.6g}) is outside the body; allowed are places in it, the nearest node of which is at ({:.6g})",
+                  fmt::join(outside->begin(), outside->end(), ", "), fmt::join(nearest.begin(), nearest.end(), ", ")));
   }
 
   // ---- contradictions ----

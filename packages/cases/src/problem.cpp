@@ -41,8 +41,8 @@ std::optional<model::MeasureControl<dim>> make_control(const Loading& loading) {
     if (!x.empty()) measured.point = point<dim>(x);
     return measured;
   };
-  discretization::MeasuredDisplacement<dim> measured{
-      place(m.group, m.point), std::nullopt, point<dim>(m.direction).normalized()};
+  discretization::MeasuredDisplacement<dim> measured{place(m.group, m.point), std::nullopt,
+                                                     point<dim>(m.direction).normalized()};
   if (!m.other_group.empty() || !m.other_point.empty()) measured.other = place(m.other_group, m.other_point);
   return model::MeasureControl<dim>{std::move(measured), {m.rate, m.constant}};
 }

@@ -98,9 +98,9 @@ double Measure<dim>::of(const base::Comm& comm, const DofMap<dim>& dofs, base::C
   return base::sum(comm, sum);
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                \
-  template std::vector<Sampled> sampled_here<dim>(const base::Comm&, const mesh::Mesh<dim>&,      \
-                                                  const std::vector<Point<dim>>&);                \
+#define PERIMORPH_INSTANTIATE(dim)                                                           \
+  template std::vector<Sampled> sampled_here<dim>(const base::Comm&, const mesh::Mesh<dim>&, \
+                                                  const std::vector<Point<dim>>&);           \
   template class Measure<dim>;
 
 PERIMORPH_INSTANTIATE(2)

@@ -181,12 +181,12 @@ void Body<dim>::follow_measure() {
   const auto response = load_response();
   const double rate = measure_->of(*comm_, topology_.dofs(), base::field(response));
   if (rate <= 0.) {
-    throw UnfinishedIncrement(
-        fmt::format("no load gives the measure /Loading/Measure prescribes, {:.6g}: it is {:.6g}, and changes by {:.6g} "
-                    "with the load factor, where it would have to grow; {}",
-                    prescribed_, measured(), rate,
-                    state_.counts.broken_bonds == 0 ? "does its Direction point against the load?"
-                                                    : "the crack has left the place where it is measured"));
+    throw UnfinishedIncrement(fmt::format(
+        "no load gives the measure /Loading/Measure prescribes, {:.6g}: it is {:.6g}, and changes by {:.6g} "
+        "with the load factor, where it would have to grow; {}",
+        prescribed_, measured(), rate,
+        state_.counts.broken_bonds == 0 ? "does its Direction point against the load?"
+                                        : "the crack has left the place where it is measured"));
   }
   const double step = (prescribed_ - measured()) / rate;
   const auto u = base::field(state_.displacement);

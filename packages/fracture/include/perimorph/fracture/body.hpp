@@ -122,7 +122,7 @@ class Body {
   ExternalWork work_;
   std::optional<discretization::Measure<dim>> measure_;  ///< that the load factor follows
   double prescribed_ = 0.;                               ///< of it, [length]
-  std::vector<operators::FacingSides> facing_sides_;  ///< that may be crack faces, in this topology
+  std::vector<operators::FacingSides> facing_sides_;     ///< that may be crack faces, in this topology
 
   bool grow();
   void rebuild(bool has_grown);
