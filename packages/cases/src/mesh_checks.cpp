@@ -74,10 +74,12 @@ class Checks {
     }
   }
 
+  /// Of as many numbers as they should have.
   void check_measured_points() {
     const auto& measure = input_.loading.measure;
-    if (!measure.point.empty()) check_inside("/Loading/Measure/Point", {point<dim>(measure.point)});
-    if (!measure.other_point.empty()) check_inside("/Loading/Measure/Other Point", {point<dim>(measure.other_point)});
+    for (const auto& [name, x] : {std::pair("Point", &measure.point), std::pair("Other Point", &measure.other_point)}) {
+      if (x->size() == dim) check_inside(std::string("/Loading/Measure/") + name, {point<dim>(*x)});
+    }
   }
 
   /// One place of a line says enough.
