@@ -44,8 +44,8 @@ void declare(const input::Section& section, MeasureControl& measure) {
                    "measure must grow with the load.");
   section.optional("Rate", measure.rate, 0.001, any_number(),
                    "[length per increment]: in increment k the measure is Rate * k + Constant.");
-  section.parameter("Constant", measure.constant, any_number(),
-                    "[length], what is measured before the first increment.");
+  section.optional("Constant", measure.constant, 0., any_number(),
+                   "[length], what is measured before the first increment; 0 if it is not given.");
 }
 
 void check_measure_control(const input::Values& loading, int dimension) {

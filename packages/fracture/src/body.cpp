@@ -2,7 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -165,14 +164,19 @@ void Body<dim>::balance(Accuracy accuracy) {
   const auto before = state_.displacement;
   const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
   const auto outcome = equilibrium_.find(system_, u, {tolerance, state_.force_scale, state_.counts.broken_bonds > 0});
-  state_.counts.linear_solves += outcome.linear_solves;
-  state_.counts.cg_iterations += outcome.cg_iterations;
+  count(outcome);
   if (!outcome.converged) {
     const auto reason = reason_for(outcome.trouble);
     state_.displacement = before;
     system_.evaluate(displacement());
     throw UnfinishedIncrement(reason);
   }
+}
+
+template <int dim>
+void Body<dim>::count(const solvers::Equilibrium::Outcome& outcome) {
+  state_.counts.linear_solves += outcome.linear_solves;
+  state_.counts.cg_iterations += outcome.cg_iterations;
 }
 
 /// While nothing breaks, what is measured is linear in the load factor.
@@ -208,15 +212,10 @@ std::vector<double> Body<dim>::load_response() {
     for (double& u : response) u /= state_.load_factor;
     return response;
   }
-  operators::NonlinearSystem::Vector force(system_.unknowns()), change(system_.unknowns());
-  system_.load_derivative(force);
-  const auto outcome = equilibrium_.linear_solver().solve(force, change, options_.damage_tolerance * force.norm2());
-  ++state_.counts.linear_solves;
-  state_.counts.cg_iterations += outcome.iterations;
+  std::vector<double> response(state_.displacement.size());
+  const auto outcome = equilibrium_.find_load_response(system_, base::field(response), options_.damage_tolerance);
+  count(outcome);
   if (!outcome.converged) throw UnfinishedIncrement(reason_for(outcome.trouble));
-  auto response = system_.space().prescribed_rates();
-  const auto free = system_.space().expand_change(change);
-  for (int dof = 0; dof < free.size(); ++dof) response[dof] += free[dof];
   return response;
 }
 

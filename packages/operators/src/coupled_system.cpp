@@ -207,6 +207,15 @@ void CoupledSystem<dim>::load_derivative(Vector& derivative) const {
 }
 
 template <int dim>
+void CoupledSystem<dim>::expand_response(const Vector& x, base::Field response) const {
+  PERIMORPH_ASSERT(static_cast<std::size_t>(response.size()) == space_->n_local(), "{} rates for {} degrees of freedom",
+                   response.size(), space_->n_local());
+  const auto rates = space_->prescribed_rates();
+  const auto change = space_->expand_change(x);
+  for (int dof = 0; dof < response.size(); ++dof) response[dof] = rates[dof] + change[dof];
+}
+
+template <int dim>
 std::size_t CoupledSystem<dim>::bytes_of_operator() const {
   return options_.operator_form == OperatorForm::crs ? matrix_->bytes() : tangent_->bytes();
 }

@@ -87,4 +87,14 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
   }
 }
 
+Equilibrium::Outcome Equilibrium::find_load_response(operators::NonlinearSystem& system, base::Field response,
+                                                     double tolerance) {
+  PERIMORPH_ASSERT(tolerance > 0., "tolerance {}", tolerance);
+  operators::NonlinearSystem::Vector force(system.unknowns()), change(system.unknowns());
+  system.load_derivative(force);
+  const auto linear = solver_.solve(force, change, tolerance * force.norm2());
+  if (linear.converged) system.expand_response(change, response);
+  return {linear.converged, 1, linear.iterations, linear.trouble};
+}
+
 }  // namespace perimorph::solvers

@@ -56,6 +56,10 @@ class Springs : public operators::NonlinearSystem {
   }
   Teuchos::RCP<Operator> tangent() const override { return matrix_; }
   void load_derivative(Vector& derivative) const override { derivative.putScalar(1.); }
+  void expand_response(const Vector& x, base::Field response) const override {
+    const auto values = x.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (int row = 0; row < n_per_rank; ++row) response[row] = values(row, 0);
+  }
   void scale_anchors(double factor) override { anchors *= factor; }
   const Teuchos::RCP<const Tpetra::Map<>>& unknowns() const override { return map_; }
   const Teuchos::RCP<Tpetra::CrsMatrix<double>>& matrix() const { return matrix_; }
@@ -74,10 +78,14 @@ class Equilibrium : public testing::Test {
   double force_scale = 0.;
   std::vector<double> u = std::vector<double>(Springs::n_per_rank, 0.);
 
-  solvers::Equilibrium::Outcome find(Springs& system, double tolerance) {
+  static solvers::SolverParameters factorizing() {
     solvers::SolverParameters parameters;
     parameters.muelu.set("multigrid algorithm", "none such");  // a factorization will do
-    solvers::Equilibrium equilibrium(*Tpetra::getDefaultComm(), parameters, profile);
+    return parameters;
+  }
+  solvers::Equilibrium equilibrium{*Tpetra::getDefaultComm(), factorizing(), profile};
+
+  solvers::Equilibrium::Outcome find(Springs& system, double tolerance) {
     const std::vector<Eigen::Vector2d> coordinates(Springs::n_per_rank / 2, Eigen::Vector2d::Zero());
     equilibrium.linear_solver().set_operator(system.tangent(), system.matrix(),
                                              solvers::rigid_body_modes<2>(*system.matrix(), coordinates));
@@ -116,6 +124,19 @@ TEST_F(Equilibrium, ConvergesByNewtonsMethodWhereForcesAreNot) {
   EXPECT_GT(outcome.linear_solves, 2);
   EXPECT_LT(outcome.linear_solves, 8);
   for (const double one : u) EXPECT_NEAR(one + one * one * one, 1., 1e-11);
+}
+
+TEST_F(Equilibrium, FindsHowTheDisplacementFollowsTheLoadByTheTangent) {
+  Springs system(1., 1.);
+  find(system, 1e-12);
+  system.prepare_tangent(base::field(u));
+  std::vector<double> response(u.size());
+
+  const auto outcome = equilibrium.find_load_response(system, base::field(response), 1e-10);
+
+  EXPECT_TRUE(outcome.converged) << outcome.trouble;
+  EXPECT_EQ(outcome.linear_solves, 1);
+  for (int i = 0; i < Springs::n_per_rank; ++i) EXPECT_NEAR(response[i], 1. / (1. + 3. * u[i] * u[i]), 1e-9);
 }
 
 TEST_F(Equilibrium, SaysThatItDidNotConvergeAndPutsTheAnchorsBack) {

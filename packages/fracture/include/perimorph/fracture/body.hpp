@@ -4,11 +4,11 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/discretization/saved_state.hpp"
-#include "perimorph/fracture/external_work.hpp"
 #include "perimorph/model/numerical_options.hpp"
 #include "perimorph/model/problem.hpp"
 #include "perimorph/operators/coupled_system.hpp"
 #include "perimorph/operators/crack_faces.hpp"
+#include "perimorph/operators/external_work.hpp"
 #include "perimorph/solvers/equilibrium.hpp"
 
 namespace perimorph::fracture {
@@ -119,7 +119,7 @@ class Body {
   discretization::Dirichlet<dim> dirichlet_;
   operators::CoupledSystem<dim> system_;
   solvers::Equilibrium equilibrium_;
-  ExternalWork work_;
+  operators::ExternalWork work_;
   std::optional<discretization::Measure<dim>> measure_;  ///< that the load factor follows
   double prescribed_ = 0.;                               ///< of it, [length]
   std::vector<operators::FacingSides> facing_sides_;     ///< that may be crack faces, in this topology
@@ -131,6 +131,7 @@ class Body {
   void publish(const bonds::BondChange& change);
   void balance(Accuracy accuracy);
   void follow_measure();
+  void count(const solvers::Equilibrium::Outcome& outcome);
   std::vector<double> load_response();
   double power_of_supports() const;
   bool is_settled(const bonds::BondChange& change) const;

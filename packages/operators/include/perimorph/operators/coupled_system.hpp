@@ -72,6 +72,7 @@ class CoupledSystem : public NonlinearSystem {
   void prepare_tangent(base::ConstField u) override;
   Teuchos::RCP<Operator> tangent() const override;
   void load_derivative(Vector& derivative) const override;
+  void expand_response(const Vector& x, base::Field response) const override;
   void scale_anchors(double factor) override { anchors_->scale(factor); }
   const Teuchos::RCP<const Tpetra::Map<>>& unknowns() const override { return space_->dofs().owned_dofs(); }
 

@@ -44,6 +44,10 @@ class NonlinearSystem {
   /// dR / d load factor on the unknowns at fixed u of the unknowns, with what is prescribed moving along, [force].
   virtual void load_derivative(Vector& derivative) const = 0;
 
+  /// How fast the displacement changes with the load factor where the unknowns do so by x, [length].
+  /// @param response on all local degrees of freedom, [length]
+  virtual void expand_response(const Vector& x, base::Field response) const = 0;
+
   /// Multiplies the springs of the tangent that hold floating pieces; they carry no force.
   /// @param factor > 0 [-]
   virtual void scale_anchors(double factor) = 0;

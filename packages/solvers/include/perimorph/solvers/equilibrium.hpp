@@ -39,6 +39,11 @@ class Equilibrium {
   /// @param u on all local degrees of freedom, [length]
   Outcome find(operators::NonlinearSystem& system, base::Field u, const BalanceTarget& target);
 
+  /// How the displacement changes with the load factor, by one solution with the tangent as it is prepared. Collective.
+  /// @param response on all local degrees of freedom, [length]
+  /// @param tolerance residual over the forces' derivative [-]
+  Outcome find_load_response(operators::NonlinearSystem& system, base::Field response, double tolerance);
+
  private:
   LinearSolver solver_;
 };

@@ -5,7 +5,7 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/field.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::operators {
 
 /// The work of all outer forces from one solution to the next. While the load rises no bond breaks and forces change
 /// linearly; at a fixed load only prescribed forces do work. What soft bonds give way by at a fixed load, they have
@@ -55,4 +55,4 @@ class ExternalWork {
   double last_power_ = 0., step_ = 0.;
 };
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::operators
