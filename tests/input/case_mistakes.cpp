@@ -405,6 +405,50 @@ TEST_F(CaseFile, MistakesOfAMeasureAreNamed) {
   for (const auto& [options, text] : mistakes) EXPECT_THAT(error(valid, options), HasSubstr(text));
 }
 
+// --- steps of the load ---
+
+TEST_F(CaseFile, StepsGiveConditionsTheirAmplitudes) {
+  const std::string up = "Loading/Steps/up/", down = "Loading/Steps/down/";
+  const perimorph::cases::Case input =
+      read(valid, {"Loading/Increments=12", up + "Increments=8", up + "Conditions={pull, wind}", up + "Values={4, 1}",
+                   down + "Increments=4", down + "Conditions={pull}", down + "Values={0}"});
+  const auto problem = perimorph::cases::make_problem<2>(input);
+  EXPECT_FALSE(problem.is_proportional);
+  const auto& pull = problem.displacements[1].value;
+  EXPECT_EQ(pull.at(4.), 2. * pull.rate);
+  EXPECT_EQ(pull.at(10.), 2. * pull.rate);
+  EXPECT_EQ(pull.at(12.), 0.);
+  EXPECT_EQ(problem.displacements[0].value.amplitude, nullptr);  // it holds
+}
+
+TEST_F(CaseFile, ProportionalLoadsWithOneAmplitudeStayProportional) {
+  const std::string step = "Loading/Steps/up/";
+  const perimorph::cases::Case input = read(
+      valid, {"Loading/Increments=8", step + "Increments=8", step + "Conditions={pull, wind}", step + "Values={4, 4}"});
+  const auto problem = perimorph::cases::make_problem<2>(input);
+  EXPECT_TRUE(problem.is_proportional);
+  EXPECT_EQ(problem.scale_at(2.), 1.);
+}
+
+TEST_F(CaseFile, MistakesOfStepsAreNamed) {
+  const std::string path = "Loading/Steps/up/", n = "Loading/Increments=8", own = path + "Increments=8",
+                    both = path + "Conditions={pull, wind}", values = path + "Values={4, 1}";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
+      {{own, both, values}, "/Loading/Increments: found 100; allowed are up to 8, as many as the steps have"},
+      {{n, own, both}, "/Loading/Steps/up/Values: missing"},
+      {{n, own, both, path + "Values={4}"},
+       "/Loading/Steps/up/Values: found 1 numbers for 2 conditions; allowed is one"},
+      {{n, own, path + "Conditions={pul, wind}", values},
+       "/Loading/Steps/up/Conditions: found \"pul\"; the conditions"},
+      {{n, own, path + "Conditions={hold, wind}", values},
+       "found \"hold\"; the conditions with a \"Rate\" are \"pull\""},
+      {{n, own, path + "Conditions={pull, pull}", values}, "/Loading/Steps/up/Conditions: found \"pull\" twice"},
+      {{n, own, path + "Conditions={pull}", path + "Values={4}"},
+       "/Boundary Conditions/Tractions/wind/Rate: found, but no step in /Loading/Steps names this condition"},
+      {{n, own, both, values, "Loading/Control=Measure"}, "/Loading/Control: found \"Measure\" beside /Loading/Steps"}};
+  for (const auto& [options, text] : mistakes) EXPECT_THAT(error(valid, options), HasSubstr(text));
+}
+
 // --- several materials ---
 
 const std::string with_steel = R"xml(<ParameterList name="Materials">

@@ -198,6 +198,29 @@ class PathFollowing(GrowingCrack):
             self.assertAlmostEqual(float(row["load_factor"]) / float(other["load_factor"]), 1, places=5)
 
 
+class LoadSteps(GrowingCrack):
+    """Pulled, let go and pulled again; in the second case beside a weight that has come first."""
+
+    STEP = lambda increments, value: {"Increments": increments, "Conditions": ["pull down", "pull up"], "Values": [value, value]}
+    CASE = changed(GrowingCrack.CASE, {
+        "Loading/Steps": {"pull": STEP(6, 14.0), "let go": STEP(4, 2.0), "pull again": STEP(6, 15.0)}})
+    WEIGHT = {"Boundary Conditions/Body Force/Rate": [0.0, -0.1],
+              "Loading/Steps/pull/Conditions": ["pull down", "pull up", "Body Force"], "Loading/Steps/pull/Values": [14.0, 14.0, 1.0]}
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for changes in [{}, self.WEIGHT]:
+            self.write_case(changes)
+            for ranks, stop in [(1, 5), (1, 8), (2, 13), (4, 6)]:
+                with self.subTest(ranks=ranks, stop=stop, changes=changes):
+                    self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                    whole = self.outcome()
+                    broken = [int(row["broken_bonds"]) for row in whole[0]]
+                    self.assertGreater(broken[5], 100)
+                    self.assertEqual(broken[5], broken[9])
+                    self.assertGreater(broken[-1], broken[9])
+                    self.assert_continues(whole, stop, *EVERY, ranks=ranks)
+
+
 class SeveralMaterials(GrowingCrack):
     """Two materials in a pattern, and interfaces weaker than both."""
 

@@ -143,8 +143,8 @@ void check_that_bonds_can_break(const base::Comm& comm, const cases::Case& input
 template <int dim>
 double increment_of(const model::Problem<dim>& problem, const fracture::Body<dim>& body, double share) {
   if (!problem.control) return share * body.load_factor();
-  const auto& [rate, constant] = problem.control->value;
-  return (share * body.measured() - constant) / rate;
+  const auto& value = problem.control->value;
+  return (share * body.measured() - value.constant) / value.rate;
 }
 
 template <int dim>
@@ -152,7 +152,7 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
                           fracture::Body<dim>& body, const base::Log& log) {
   if (!problem.breaks() || input.morphing.seeds.empty()) return;
   describe_strengths(input, problem, depth(comm, body.mesh()), log);
-  if (!problem.is_proportional) return;  // one solution says nothing of others
+  if (!problem.is_proportional || problem.common_amplitude != nullptr) return;  // one solution says nothing of others
   const double last = input.loading.increments;
   body.prescribe(problem.prescribed_in(input.loading.increments));
   try {

@@ -67,6 +67,7 @@ void check(const Resolved& resolved, Mistakes& mistakes) {
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);
   check_solver(root.sub("Solver"), has_dilatation(root), softens(root));
   check_loading(root.sub("Loading"), *dimension, softens(root));
+  check_steps(root);
   check_output(root.sub("Output"), *dimension);
 }
 

@@ -34,6 +34,12 @@ void declare(const input::Section& section, Loading& loading, model::NumericalOp
       "Increments", loading.increments, 100, count(),
       "Load steps k = 1, 2, ... up to this one. Before the first break they cost next to nothing. With few large ones "
       "the first break is known only to within a large step, and a crack that would grow slowly jumps.");
+  section.entries(
+      "Steps", loading.steps, declare,
+      "Stages of the load, each a list with a name of your choice, in their order: the own weight first, then the "
+      "load; pull, unload, pull again. Without steps all loads grow with the increment's number k; with "
+      "them the value of a condition is Rate * a + Constant, a by the steps.",
+      "One stage.");
   section.choice("Control", loading.control, controls,
                  "What increments prescribe. With Load the load factor, which is the increment's number k. With "
                  "Measure a displacement that grows with the crack, such as the opening of its mouth: the load "

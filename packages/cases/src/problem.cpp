@@ -13,22 +13,47 @@ namespace perimorph::cases {
 
 namespace {
 
+/// Amplitudes of conditions by their names; they belong to the problem.
+class Amplitudes {
+ public:
+  Amplitudes(const std::vector<Step>& steps, std::vector<std::shared_ptr<const discretization::Amplitude>>& all)
+      : steps_(steps), all_(all) {}
+
+  /// Of a condition's value; null without steps, or where there is nothing to multiply.
+  template <class T>
+  const discretization::Amplitude* of(const std::string& condition, const T& rate) {
+    if (steps_.empty() || rate == T(0. * rate)) return nullptr;
+    all_.push_back(amplitude_of(condition, steps_));
+    return all_.back().get();
+  }
+
+  template <int dim>
+  discretization::Ramp<base::Point<dim>> ramp(const std::string& condition, const std::vector<double>& rate,
+                                              const std::vector<double>& constant) {
+    return {point<dim>(rate), point<dim>(constant), of(condition, point<dim>(rate))};
+  }
+
+ private:
+  const std::vector<Step>& steps_;
+  std::vector<std::shared_ptr<const discretization::Amplitude>>& all_;
+};
+
 template <int dim>
-discretization::Loads<dim> make_loads(const Case& input) {
+discretization::Loads<dim> make_loads(const Case& input, Amplitudes& amplitudes) {
   const BoundaryConditions& conditions = input.boundary_conditions;
   std::vector<discretization::SurfaceTraction<dim>> tractions;
   for (const auto& t : conditions.tractions) {
-    tractions.push_back({t.group, {point<dim>(t.rate), point<dim>(t.constant)}});
+    tractions.push_back({t.group, amplitudes.ramp<dim>(t.name, t.rate, t.constant)});
   }
   discretization::SelfWeight<dim> weight{
-      {point<dim>(conditions.self_weight_rate), point<dim>(conditions.self_weight_constant)},
+      amplitudes.ramp<dim>("Self-Weight", conditions.self_weight_rate, conditions.self_weight_constant),
       {},
       input.material.density};
   for (const auto& solid : input.materials) {
     for (const auto& block : solid.blocks) weight.densities[block] = solid.density;
   }
   return {std::move(tractions),
-          {point<dim>(conditions.body_force_rate), point<dim>(conditions.body_force_constant)},
+          amplitudes.ramp<dim>("Body Force", conditions.body_force_rate, conditions.body_force_constant),
           std::move(weight)};
 }
 
@@ -132,12 +157,21 @@ void check_numbers(const Case& input, const materials::Material<dim>& material, 
 
 template <int dim>
 model::Problem<dim> make_problem(const Case& input) {
+  std::vector<std::shared_ptr<const discretization::Amplitude>> all;
+  Amplitudes amplitudes(input.loading.steps, all);
   model::Problem<dim> problem{{},
                               {},
                               facets_of<dim>(input.pre_cracks),
                               input.boundary_conditions.displacements,
-                              make_loads<dim>(input),
-                              input.boundary_conditions.are_proportional()};
+                              make_loads<dim>(input, amplitudes),
+                              input.loading.steps.empty() && input.boundary_conditions.are_proportional()};
+  for (auto& [name, set, component, value] : problem.displacements) value.amplitude = amplitudes.of(name, value.rate);
+  const auto is_common = [&](const auto& amplitude) { return *amplitude == *all.front(); };
+  if (input.boundary_conditions.are_proportional() && !all.empty() && std::all_of(all.begin(), all.end(), is_common)) {
+    problem.is_proportional = true;
+    problem.common_amplitude = all.front().get();
+  }
+  problem.amplitudes = std::move(all);
   for (const Solid& solid : solids_of(input)) {
     for (const auto& block : solid.blocks)
       problem.material_of_block[block] = static_cast<int>(problem.materials.size());

@@ -13,8 +13,7 @@ std::vector<Contradiction> contradictions(const mesh::Mesh<dim>& mesh,
     for (const int node : group->second) {
       int& first = set_by[static_cast<std::size_t>(node) * dim + conditions[i].component];
       if (first < 0) first = i;
-      const auto &a = conditions[first].value, &b = conditions[i].value;
-      if (a.rate != b.rate || a.constant != b.constant) all.push_back({first, i, node});
+      if (!(conditions[first].value == conditions[i].value)) all.push_back({first, i, node});
     }
   }
   return all;

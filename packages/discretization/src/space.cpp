@@ -46,9 +46,9 @@ base::ConstField Space<dim>::expand_change(const Vector& x) const {
 }
 
 template <int dim>
-std::vector<double> Space<dim>::prescribed_rates() const {
+std::vector<double> Space<dim>::prescribed_rates(double load_factor, double step) const {
   std::vector<double> rates(n_local(), 0.);
-  for (const int dof : prescribed_) rates[dof] = ramp(dof).rate;
+  for (const int dof : prescribed_) rates[dof] = ramp(dof).rate_in(load_factor, step);
   return rates;
 }
 

@@ -70,8 +70,9 @@ void Body<dim>::apply_load(double load_factor) {
   state_.load_step = load_factor - state_.load_factor;
   work_.load_changes(state_.load_step);
   // Everything is linear while no bond breaks: under proportional load the displacement scales.
-  if (problem_.is_proportional && state_.load_factor != 0.) {
-    const double factor = load_factor / state_.load_factor;
+  const double last = problem_.scale_at(state_.load_factor);
+  if (problem_.is_proportional && last != 0.) {
+    const double factor = problem_.scale_at(load_factor) / last;
     for (double& u : state_.displacement) u *= factor;
   }
   state_.load_factor = load_factor;
@@ -223,7 +224,7 @@ std::vector<double> Body<dim>::load_response() {
 template <int dim>
 double Body<dim>::power_of_supports() const {
   if (!topology_.bonds().softens()) return 0.;
-  const auto rates = system_.space().prescribed_rates();
+  const auto rates = system_.space().prescribed_rates(state_.load_factor, state_.load_step);
   const auto& force = system_.internal_force();
   return std::inner_product(force.begin(), force.end(), rates.begin(), 0.);
 }

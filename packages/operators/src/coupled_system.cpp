@@ -196,7 +196,7 @@ void CoupledSystem<dim>::load_derivative(Vector& derivative) const {
   PERIMORPH_ASSERT(derivative.getLocalLength() == space_->n_owned(), "derivative of {} for {} degrees of freedom",
                    derivative.getLocalLength(), space_->n_owned());
   std::vector<double> forces(space_->n_local(), 0.);
-  const auto rates = space_->prescribed_rates();
+  const auto rates = space_->prescribed_rates(load_factor_, 0.);
   for (const auto& term : terms_) term->add_tangent_product(base::field(rates), base::field(forces));
   for (const auto& terms : {terms_, load_terms_}) {
     for (const auto& term : terms) term->add_load_derivative(base::field(forces));
@@ -210,7 +210,7 @@ template <int dim>
 void CoupledSystem<dim>::expand_response(const Vector& x, base::Field response) const {
   PERIMORPH_ASSERT(static_cast<std::size_t>(response.size()) == space_->n_local(), "{} rates for {} degrees of freedom",
                    response.size(), space_->n_local());
-  const auto rates = space_->prescribed_rates();
+  const auto rates = space_->prescribed_rates(load_factor_, 0.);
   const auto change = space_->expand_change(x);
   for (int dof = 0; dof < response.size(); ++dof) response[dof] = rates[dof] + change[dof];
 }

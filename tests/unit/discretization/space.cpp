@@ -64,7 +64,7 @@ TEST_F(Space, ForcesActOnUnknownsOnly) {
 }
 
 TEST_F(Space, KnowsHowFastWhatIsPrescribedMoves) {
-  const auto rates = space.prescribed_rates();
+  const auto rates = space.prescribed_rates(3., 1.);
   for (std::size_t dof = 0; dof < rates.size(); ++dof)
     EXPECT_EQ(rates[dof], is_pulled(static_cast<int>(dof)) ? 0.5 : 0.);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "perimorph/cases/measure_control.hpp"
+#include "perimorph/cases/steps.hpp"
 #include "perimorph/model/numerical_options.hpp"
 
 namespace perimorph::cases {
@@ -10,6 +11,7 @@ struct Loading {
   int increments = 0;
   Control control = Control::load;
   MeasureControl measure;
+  std::vector<Step> steps;            ///< none: all loads grow with the increment
   int max_damage_iterations = 20000;  ///< solves within one increment
   int max_zone_growths = 5000;        ///< changes of topology within one increment
 };

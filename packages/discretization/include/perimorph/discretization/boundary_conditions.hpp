@@ -5,17 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "perimorph/discretization/amplitude.hpp"
 #include "perimorph/discretization/dof_map.hpp"
 #include "perimorph/elements/material_points.hpp"
 
 namespace perimorph::discretization {
-
-/// A value that grows with the load factor [-]: rate * load factor + constant, both in the value's unit.
-template <class T>
-struct Ramp {
-  T rate, constant;
-  T at(double load_factor) const { return rate * load_factor + constant; }
-};
 
 /// One displacement component, prescribed on a node set, [length].
 struct PrescribedComponent {

@@ -38,9 +38,9 @@ class Space {
   /// @param x on owned degrees of freedom, [length]
   base::ConstField expand_change(const Vector& x) const;
 
-  /// How fast prescribed displacements grow with the load factor, on all local degrees of freedom; zero where nothing
-  /// is prescribed, [length]. Local.
-  std::vector<double> prescribed_rates() const;
+  /// How fast prescribed displacements grow with the load factor in a step up to it, on average, on all local degrees
+  /// of freedom; zero where nothing is prescribed, [length]. Local.
+  std::vector<double> prescribed_rates(double load_factor, double step) const;
 
   /// Takes forces on nodes to forces on unknowns: none where the displacement is prescribed. Local.
   /// @param forces on all local degrees of freedom, or on owned ones, [force]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,15 +43,22 @@ struct Problem {
   std::vector<mesh::CrackFacet<dim>> pre_cracks;
   std::vector<discretization::PrescribedComponent> displacements;
   discretization::Loads<dim> loads;
-  bool is_proportional;  ///< all loads grow with the increment from zero
+  bool is_proportional;  ///< all loads grow together from zero: with the increment, or by a common amplitude
   std::vector<AutomaticSeed> automatic_seeds = {};
   Calibration calibration = Calibration::analytic;
   std::map<std::string, int> material_of_block = {};  ///< place in the list, by the name of a block of the mesh
   std::vector<materials::Interface> interfaces = {};  ///< between any two of the materials
-  std::optional<MeasureControl<dim>> control = {};    ///< none: the load factor is the increment's number
+  std::vector<std::shared_ptr<const discretization::Amplitude>> amplitudes = {};  ///< that conditions refer to
+  const discretization::Amplitude* common_amplitude = nullptr;  ///< of all loads that are proportional; null: none
+  std::optional<MeasureControl<dim>> control = {};              ///< none: the load factor is the increment's number
 
   /// What an increment prescribes: its load factor [-], or with control what is measured, [length].
   double prescribed_in(int increment) const { return control ? control->value.at(increment) : increment; }
+
+  /// What proportional loads are proportional to, [-].
+  double scale_at(double load_factor) const {
+    return common_amplitude == nullptr ? load_factor : common_amplitude->at(load_factor);
+  }
 
   bool has_zones() const { return !seeds.empty() || !automatic_seeds.empty(); }
   double horizon() const { return materials[0].micromodulus.horizon; }  ///< [length]

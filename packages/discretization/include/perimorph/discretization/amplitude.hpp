@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "perimorph/base/errors.hpp"
+
+namespace perimorph::discretization {
+
+/// A number over the increments, [-]: linear between given ones, and constant before the first and after the last.
+class Amplitude {
+ public:
+  struct Knot {
+    double increment, value;
+    bool operator==(const Knot& other) const { return increment == other.increment && value == other.value; }
+  };
+
+  /// @param knots at least one, by ascending increment
+  explicit Amplitude(std::vector<Knot> knots);
+
+  double at(double increment) const;
+
+  bool operator==(const Amplitude& other) const { return knots_ == other.knots_; }
+
+ private:
+  std::vector<Knot> knots_;
+};
+
+/// A value that grows with the load factor [-]: rate * load factor + constant, both in the value's unit. With an
+/// amplitude, rate * amplitude + constant, and the load factor is the increment.
+template <class T>
+struct Ramp {
+  T rate, constant;
+  const Amplitude* amplitude = nullptr;  ///< must outlive this
+
+  T at(double load_factor) const {
+    return rate * (amplitude == nullptr ? load_factor : amplitude->at(load_factor)) + constant;
+  }
+
+  /// How fast it grows in a step up to a load factor, on average.
+  T rate_in(double load_factor, double step) const {
+    if (amplitude == nullptr) return rate;
+    return step == 0. ? T(0. * rate) : T((at(load_factor) - at(load_factor - step)) / step);
+  }
+
+  bool operator==(const Ramp& other) const {
+    const bool are_both = amplitude != nullptr && other.amplitude != nullptr;
+    return rate == other.rate && constant == other.constant &&
+           (are_both ? *amplitude == *other.amplitude : amplitude == other.amplitude);
+  }
+};
+
+}  // namespace perimorph::discretization
