@@ -405,6 +405,20 @@ TEST_F(CaseFile, MistakesOfAMeasureAreNamed) {
   for (const auto& [options, text] : mistakes) EXPECT_THAT(error(valid, options), HasSubstr(text));
 }
 
+// --- pressures ---
+
+TEST_F(CaseFile, APressureIsReadAndItsGroupChecked) {
+  const std::string path = "Boundary Conditions/Pressures/gas/";
+  const perimorph::cases::Case input = read(valid, {path + "Group=top", path + "Rate=2"});
+  ASSERT_EQ(input.boundary_conditions.pressures.size(), 1u);
+  EXPECT_EQ(input.boundary_conditions.pressures[0].group, "top");
+  EXPECT_EQ(input.boundary_conditions.pressures[0].rate, 2.);
+  EXPECT_TRUE(input.boundary_conditions.are_proportional());
+  EXPECT_FALSE(read(valid, {path + "Group=top", path + "Constant=2"}).boundary_conditions.are_proportional());
+  EXPECT_THAT(error(valid, {path + "Group=tpo", "Solver/Tolerence=1"}),
+              HasSubstr("/Boundary Conditions/Pressures/gas/Group: the mesh plate.msh has no group of sides called \"tpo\""));
+}
+
 // --- steps of the load ---
 
 TEST_F(CaseFile, StepsGiveConditionsTheirAmplitudes) {

@@ -29,6 +29,7 @@ struct SpecimenIn {
   double critical_stretch = std::numeric_limits<double>::infinity();
   std::vector<mesh::CrackFacet<dim>> pre_cracks = {};
   std::vector<discretization::SurfaceTraction<dim>> tractions = {};
+  std::vector<discretization::SurfacePressure> pressures = {};
   base::Point<dim> body_force_rate = base::Point<dim>::Zero();
   bool is_proportional = true;
   double tolerance = 1e-10;  ///< residual over reaction forces
@@ -71,7 +72,8 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
       specimen.seeds,
       specimen.pre_cracks,
       specimen.displacements,
-      discretization::Loads<dim>(specimen.tractions, {specimen.body_force_rate, base::Point<dim>::Zero()}),
+      discretization::Loads<dim>(specimen.tractions, {specimen.body_force_rate, base::Point<dim>::Zero()}, {},
+                                 specimen.pressures),
       specimen.is_proportional};
   problem.material_of_block = specimen.material_of_block;
   problem.interfaces = std::move(interfaces);

@@ -35,6 +35,15 @@ void declare_traction(const input::Section& section, Traction& one) {
   section.parameter("Constant", one.constant, vector, "[stress], one number per dimension; {} is zero.");
 }
 
+void declare_pressure(const input::Section& section, Pressure& one) {
+  using namespace input;
+  section.required("Group", one.group, "hole", text("the name of a group"),
+                   "A physical group of the mesh: part of its boundary.");
+  section.parameter("Rate", one.rate, any_number(),
+                    "[stress per increment]; what is positive presses on the body, what is negative pulls.");
+  section.parameter("Constant", one.constant, any_number(), "[stress].");
+}
+
 void check_displacements(const input::Values& conditions, int dimension) {
   std::map<std::pair<std::string, std::string>, std::string> seen;
   for (const auto& one : conditions.subs("Displacements")) {
@@ -76,6 +85,10 @@ void declare(const input::Section& section, BoundaryConditions& conditions) {
                   "Forces on parts of the boundary, each a list with a name of your choice. In increment k the "
                   "traction is Rate * k + Constant.",
                   "The traction on one group.");
+  section.entries("Pressures", conditions.pressures, declare_pressure,
+                  "Pressures on parts of the boundary, along their normals in the undeformed body, each a list with a "
+                  "name of your choice. In increment k the pressure is Rate * k + Constant.",
+                  "The pressure on one group.");
   const auto body = section.section("Body Force", "Force per volume: Rate * k + Constant in increment k.");
   const auto vector = numbers("{x, y} or {x, y, z}");
   body.parameter("Rate", conditions.body_force_rate, vector,
@@ -109,6 +122,7 @@ bool BoundaryConditions::are_proportional() const {
   return std::all_of(displacements.begin(), displacements.end(),
                      [&](const auto& d) { return is_zero(d.value.constant); }) &&
          std::all_of(tractions.begin(), tractions.end(), [&](const auto& t) { return all_zero(t.constant); }) &&
+         std::all_of(pressures.begin(), pressures.end(), [&](const auto& p) { return is_zero(p.constant); }) &&
          all_zero(body_force_constant) && all_zero(self_weight_constant);
 }
 

@@ -26,6 +26,7 @@ class GroupChecks {
   void run() {
     const auto is_held = check_conditions("Displacements", mesh_.node_sets, "nodes");
     check_conditions("Tractions", mesh_.side_sets, "sides");
+    check_conditions("Pressures", mesh_.side_sets, "sides");
     check_blocks();
     check_measure();
     const ParameterList& output = list_.sublist("Output");

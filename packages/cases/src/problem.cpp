@@ -52,9 +52,14 @@ discretization::Loads<dim> make_loads(const Case& input, Amplitudes& amplitudes)
   for (const auto& solid : input.materials) {
     for (const auto& block : solid.blocks) weight.densities[block] = solid.density;
   }
+  std::vector<discretization::SurfacePressure> pressures;
+  for (const auto& p : conditions.pressures) {
+    pressures.push_back({p.group, {p.rate, p.constant, amplitudes.of(p.name, p.rate)}});
+  }
   return {std::move(tractions),
           amplitudes.ramp<dim>("Body Force", conditions.body_force_rate, conditions.body_force_constant),
-          std::move(weight)};
+          std::move(weight),
+          std::move(pressures)};
 }
 
 template <int dim>

@@ -34,7 +34,7 @@ std::multimap<std::string, Condition> conditions_of(const Values& root) {
   const Values all = root.sub(conditions_path);
   std::multimap<std::string, Condition> found;
   const auto add = [&](const Values& one) { found.emplace(name_of(one), Condition{one, is_nonzero(one)}); };
-  for (const char* kind : {"Displacements", "Tractions"}) {
+  for (const char* kind : {"Displacements", "Tractions", "Pressures"}) {
     for (const auto& one : all.subs(kind)) add(one);
   }
   for (const char* kind : {"Body Force", "Self-Weight"}) add(all.sub(kind));
@@ -56,8 +56,8 @@ void check_names(const Values& step, const std::multimap<std::string, Condition>
                    fmt::format("found {}; the conditions with a \"Rate\" are {}{}", input::in_quotes(name),
                                base::quoted_list(allowed), base::did_you_mean(name, allowed)));
     } else if (conditions.count(name) > 1) {
-      step.mistake("Conditions", fmt::format("found {}, which is the name of a displacement and of a traction; allowed "
-                                             "are names that only one condition has",
+      step.mistake("Conditions", fmt::format("found {}, which is the name of several conditions; allowed are names that "
+                                             "only one has",
                                              input::in_quotes(name)));
     }
   }
@@ -93,7 +93,7 @@ void declare(const input::Section& section, Step& step) {
   using namespace input;
   section.required("Increments", step.increments, 10, count(), "Of this step.");
   section.required("Conditions", step.conditions, {"press"}, names("a list of conditions such as {press}"),
-                   "Displacements and tractions by their names, \"Body Force\" and \"Self-Weight\". Those that are not "
+                   "Displacements, tractions and pressures by their names, \"Body Force\" and \"Self-Weight\". Those that are not "
                    "listed stay as they are.");
   section.required(
       "Values", step.values, {1.}, numbers("one number for each condition"),

@@ -35,27 +35,31 @@ Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
 
 namespace {
 
-/// Integral of each corner's shape function over a flat or bilinear side, [length^(dim-1)].
-template <int dim>
-std::vector<double> shape_integrals(const std::vector<Point<dim>>& x) {
-  if constexpr (dim == 2) {
-    const double length = (x[1] - x[0]).norm();
-    return {length / 2., length / 2.};
-  } else {
-    const auto area = [](const Point<3>& a, const Point<3>& b) { return a.cross(b).norm(); };
-    if (x.size() == 3) return std::vector<double>(3, area(x[1] - x[0], x[2] - x[0]) / 6.);
-    std::vector<double> integrals(4, 0.);
-    const auto& square = elements::reference_element<2>(mesh::ElementType::quad4);
-    for (int q = 0; q < square.n_points; ++q) {
-      Point<3> along_xi = Point<3>::Zero(), along_eta = Point<3>::Zero();
-      for (int k = 0; k < 4; ++k) {
-        along_xi += square.gradients[q](0, k) * x[k];
-        along_eta += square.gradients[q](1, k) * x[k];
-      }
-      for (int k = 0; k < 4; ++k) integrals[k] += square.shape[q](k) * square.weights[q] * area(along_xi, along_eta);
+/// Integral of each corner's shape function times what `of` makes of the outward area, over a flat or bilinear side.
+/// @param of an area vector, [length^(dim-1)]
+template <class Of>
+auto shape_integrals(const std::vector<Point<2>>& x, Of of) {
+  const Point<2> along = x[1] - x[0];
+  const auto half = of(Point<2>(along[1], -along[0])) / 2.;
+  return std::vector<std::decay_t<decltype(of(Point<2>()))>>{half, half};
+}
+
+template <class Of>
+auto shape_integrals(const std::vector<Point<3>>& x, Of of) {
+  using Integral = std::decay_t<decltype(of(Point<3>()))>;
+  if (x.size() == 3) return std::vector<Integral>(3, of(Point<3>((x[1] - x[0]).cross(x[2] - x[0]))) / 6.);
+  std::vector<Integral> integrals(4, of(Point<3>(Point<3>::Zero())));
+  const auto& square = elements::reference_element<2>(mesh::ElementType::quad4);
+  for (int q = 0; q < square.n_points; ++q) {
+    Point<3> along_xi = Point<3>::Zero(), along_eta = Point<3>::Zero();
+    for (int k = 0; k < 4; ++k) {
+      along_xi += square.gradients[q](0, k) * x[k];
+      along_eta += square.gradients[q](1, k) * x[k];
     }
-    return integrals;
+    const Integral area = of(Point<3>(along_xi.cross(along_eta)));
+    for (int k = 0; k < 4; ++k) integrals[k] += square.shape[q](k) * square.weights[q] * area;
   }
+  return integrals;
 }
 
 }  // namespace
@@ -64,13 +68,13 @@ template <int dim>
 std::vector<double> Loads<dim>::forces(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                        const DofMap<dim>& dofs, double load_factor) const {
   PERIMORPH_ASSERT(std::isfinite(load_factor), "load factor {}", load_factor);
-  return integrate(mesh, points, dofs, [=](const Ramp<Point<dim>>& load) { return load.at(load_factor); });
+  return integrate(mesh, points, dofs, [=](const auto& load) { return load.at(load_factor); });
 }
 
 template <int dim>
 std::vector<double> Loads<dim>::rates(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                       const DofMap<dim>& dofs) const {
-  return integrate(mesh, points, dofs, [](const Ramp<Point<dim>>& load) { return load.rate; });
+  return integrate(mesh, points, dofs, [](const auto& load) { return load.rate; });
 }
 
 /// Forces on the nodes of what value(load) makes of each load.
@@ -83,15 +87,21 @@ std::vector<double> Loads<dim>::integrate(const mesh::Mesh<dim>& mesh, const ele
     if (node >= dofs.n_owned_nodes()) return;
     for (int c = 0; c < dim; ++c) forces[node * dim + c] += force[c];
   };
-  for (const auto& traction : tractions_) {
-    const Point<dim> per_area = value(traction.value);
-    for (const auto& side : mesh.side_sets.at(traction.side_set)) {
-      const auto integrals = shape_integrals<dim>(mesh::corner_points(mesh, side));
+  const auto add_on = [&](const std::string& side_set, const auto& of, const auto& factor) {
+    for (const auto& side : mesh.side_sets.at(side_set)) {
+      const auto integrals = shape_integrals(mesh::corner_points(mesh, side), of);
       const auto& corners = mesh::sides(mesh.types[side.element])[side.side];
       for (std::size_t k = 0; k < corners.size(); ++k) {
-        add(dofs.nodes_of(side.element)[corners[k]], integrals[k] * per_area);
+        add(dofs.nodes_of(side.element)[corners[k]], integrals[k] * factor);
       }
     }
+  };
+  for (const auto& traction : tractions_) {
+    const Point<dim> per_area = value(traction.value);
+    add_on(traction.side_set, [](const Point<dim>& area) { return area.norm(); }, per_area);
+  }
+  for (const auto& pressure : pressures_) {
+    add_on(pressure.side_set, [](const Point<dim>& area) { return area; }, -value(pressure.value));
   }
   const Point<dim> anywhere = value(body_force_), acceleration = value(self_weight_.acceleration);
   if (anywhere.isZero(0.) && acceleration.isZero(0.)) return forces;

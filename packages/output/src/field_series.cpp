@@ -116,7 +116,7 @@ void FieldSeries<dim>::start_file(const Body<dim>& body, const std::vector<mesh:
 }
 
 template <int dim>
-void FieldSeries<dim>::write(const Body<dim>& body, std::vector<double> globals) {
+void FieldSeries<dim>::write(int increment, const Body<dim>& body, std::vector<double> globals) {
   const auto surface = bonds::broken_surface(body.mesh(), body.topology().bonds());
   const GlobalId n_broken_sides = base::sum(*comm_, static_cast<GlobalId>(surface.size()));  // it only grows
   if (topology_written_ != body.counts().topologies || broken_sides_written_ != n_broken_sides) {
@@ -125,7 +125,7 @@ void FieldSeries<dim>::write(const Body<dim>& body, std::vector<double> globals)
   topology_written_ = body.counts().topologies;
   broken_sides_written_ = n_broken_sides;
 
-  io::ExodusStep step{body.load_factor(), std::move(globals), {}, {}};
+  io::ExodusStep step{static_cast<double>(increment), std::move(globals), {}, {}};
   for (int c = 0; c < dim; ++c) step.nodal.push_back(on_nodes(body, c));
   const View<dim> view{body, body.model(),
                        operators::element_fields(body.model(), body.displacement(), body.system().at_points())};

@@ -136,7 +136,7 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
   const GlobalId newly_broken = count(increment, body.counts());
   const auto record = record_of(increment, body);
   const auto values = values_of(record);
-  if (increment % output_every_ == 0 || newly_broken > 0 || increment == last_increment_) fields_->write(body, values);
+  if (increment % output_every_ == 0 || newly_broken > 0 || increment == last_increment_) fields_->write(increment, body, values);
   if (exports_) exports_->accept(increment, body);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
@@ -156,7 +156,7 @@ std::string Results<dim>::write_unfinished(int increment, const Body<dim>& body)
     std::error_code reported_later;
     if (comm_->getRank() == 0) std::filesystem::create_directory(folder, reported_later);
   });
-  FieldSeries<dim>(comm_, unfinished_, {}, {}).write(body, values_of(record_of(increment, body)));
+  FieldSeries<dim>(comm_, unfinished_, {}, {}).write(increment, body, values_of(record_of(increment, body)));
   return unfinished_.file;
 }
 

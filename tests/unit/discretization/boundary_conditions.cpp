@@ -12,6 +12,7 @@ namespace perimorph::tests {
 namespace {
 
 using discretization::PrescribedComponent;
+using discretization::Ramp;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -102,6 +103,60 @@ TEST_P(BoundaryConditions, BodyForceSumsToForceTimesAreaAtTheCentroid) {
     EXPECT_NEAR(actual.moment, 1.5 * -2.75 * 6. - 1. * 1.5 * 6., rounding);
   }
 }
+
+TEST_P(BoundaryConditions, PressuresActAgainstTheBodyAlongItsNormals) {
+  const Ramp<Point2> none = {Point2::Zero(), Point2::Zero()};
+  const discretization::Loads<2> loads({}, none, {}, {{"top", {0.5, 1.}}, {"right", {1.5, 0.}}});
+  for (const bool split : {false, true}) {
+    const auto actual = resultant(loads, dofs(split), 2.);
+    // Top: (0, -2) over 3, at (1.5, 2). Right: (-3, 0) over 2, at (3, 1).
+    EXPECT_NEAR(actual.x, -3. * 2., rounding);
+    EXPECT_NEAR(actual.y, -2. * 3., rounding);
+    EXPECT_NEAR(actual.moment, 1.5 * -6. + 1. * 6., rounding);
+  }
+}
+
+TEST_P(BoundaryConditions, APressureAllAroundHasNoResultant) {
+  mesh.side_sets["skin"] = mesh.boundary;
+  const discretization::Loads<2> loads({}, {Point2::Zero(), Point2::Zero()}, {}, {{"skin", {1., 0.}}});
+  const auto actual = resultant(loads, dofs(false), 4.);
+  EXPECT_NEAR(actual.x, 0., rounding);
+  EXPECT_NEAR(actual.y, 0., rounding);
+  EXPECT_NEAR(actual.moment, 0., rounding);
+}
+
+class PressureIn3d : public testing::TestWithParam<mesh::ElementType> {};
+
+TEST_P(PressureIn3d, HasNoResultantAllAroundAndItsAreaTimesItselfOnOneFace) {
+  const auto comm = Tpetra::getDefaultComm();
+  auto mesh = mesh::distribute(*comm, brick({3, 4, 2, 0.2, GetParam()}), 0.5);
+  mesh.side_sets["skin"] = mesh.boundary;
+  for (const auto& side : mesh.boundary) {
+    const auto corners = mesh::corner_points(mesh, side);
+    const auto is_on = [](const Point3& x) { return x[0] == 3.; };
+    if (std::all_of(corners.begin(), corners.end(), is_on)) mesh.side_sets["right"].push_back(side);
+  }
+  mesh.side_sets.try_emplace("right");
+  const elements::MaterialPoints<3> points(mesh);
+  const std::vector<char> whole(mesh.n_elements(), 0);
+  const discretization::DofMap<3> dofs(comm, mesh, discretization::corner_exchange(*comm, mesh), whole);
+  const auto sum_on = [&](const char* set) {
+    const discretization::Loads<3> loads({}, {Point3::Zero(), Point3::Zero()}, {}, {{set, {1., 0.}}});
+    const auto forces = loads.forces(mesh, points, dofs, 2.);
+    std::vector<double> sums(3, 0.);
+    for (std::size_t dof = 0; dof < forces.size(); ++dof) sums[dof % 3] += forces[dof];
+    base::sum(*comm, sums);
+    return sums;
+  };
+
+  for (const double sum : sum_on("skin")) EXPECT_NEAR(sum, 0., rounding);
+  const auto on_right = sum_on("right");
+  EXPECT_NEAR(on_right[0], -2. * 4. * 2., rounding);
+  EXPECT_NEAR(on_right[1], 0., rounding);
+  EXPECT_NEAR(on_right[2], 0., rounding);
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, PressureIn3d, testing::Values(mesh::ElementType::hex8, mesh::ElementType::tet4));
 
 INSTANTIATE_TEST_SUITE_P(Types, BoundaryConditions, testing::Bool(),
                          [](const auto& p) { return p.param ? "Triangles" : "Quadrilaterals"; });

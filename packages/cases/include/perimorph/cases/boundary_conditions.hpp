@@ -15,10 +15,17 @@ struct Traction {
   std::vector<double> rate, constant;
 };
 
+/// Pressure on a side set: rate * increment + constant, [stress].
+struct Pressure {
+  std::string name, group;
+  double rate = 0., constant = 0.;
+};
+
 /// What holds the body and what loads it.
 struct BoundaryConditions {
   std::vector<discretization::PrescribedComponent> displacements;
   std::vector<Traction> tractions;
+  std::vector<Pressure> pressures;
   std::vector<double> body_force_rate, body_force_constant;    ///< (dim), [force / volume]
   std::vector<double> self_weight_rate, self_weight_constant;  ///< (dim), [length / time^2]
 

@@ -37,6 +37,12 @@ struct SurfaceTraction {
   Ramp<base::Point<dim>> value;
 };
 
+/// Pressure on a side set, along its normal in the reference; against the body where it is positive, [stress].
+struct SurfacePressure {
+  std::string side_set;
+  Ramp<double> value;
+};
+
 /// Weight of what fills the body: a force per volume of density times acceleration.
 template <int dim>
 struct SelfWeight {
@@ -67,7 +73,7 @@ class Dirichlet {
   std::vector<Ramp<double>> values_;
 };
 
-/// Forces of tractions and body forces on the nodes of the current topology, consistent with the shape functions
+/// Forces of tractions, pressures and body forces on the nodes of the current topology, consistent with the shape functions
 /// [WHL19, eq. 12, 19].
 template <int dim>
 class Loads {
@@ -75,8 +81,11 @@ class Loads {
   /// @param body_force per volume, the same everywhere, (dim), [force / volume]
   /// @param self_weight of what fills the body
   Loads(std::vector<SurfaceTraction<dim>> tractions, Ramp<base::Point<dim>> body_force,
-        SelfWeight<dim> self_weight = {})
-      : tractions_(std::move(tractions)), body_force_(body_force), self_weight_(std::move(self_weight)) {}
+        SelfWeight<dim> self_weight = {}, std::vector<SurfacePressure> pressures = {})
+      : tractions_(std::move(tractions)),
+        pressures_(std::move(pressures)),
+        body_force_(body_force),
+        self_weight_(std::move(self_weight)) {}
 
   /// Force on each owned degree of freedom, (n_owned_nodes * dim), [force]. Local.
   /// @param load_factor [-]
@@ -89,6 +98,7 @@ class Loads {
 
  private:
   std::vector<SurfaceTraction<dim>> tractions_;
+  std::vector<SurfacePressure> pressures_;
   Ramp<base::Point<dim>> body_force_;
   SelfWeight<dim> self_weight_;
 

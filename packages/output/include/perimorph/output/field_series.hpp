@@ -42,7 +42,7 @@ class FieldSeries {
 
   /// Appends a step. Collective. @throws ComputationError if it cannot be written.
   /// @param globals values of the global variables
-  void write(const fracture::Body<dim>& body, std::vector<double> globals);
+  void write(int increment, const fracture::Body<dim>& body, std::vector<double> globals);
 
  private:
   Teuchos::RCP<const base::Comm> comm_;
