@@ -415,8 +415,9 @@ TEST_F(CaseFile, APressureIsReadAndItsGroupChecked) {
   EXPECT_EQ(input.boundary_conditions.pressures[0].rate, 2.);
   EXPECT_TRUE(input.boundary_conditions.are_proportional());
   EXPECT_FALSE(read(valid, {path + "Group=top", path + "Constant=2"}).boundary_conditions.are_proportional());
-  EXPECT_THAT(error(valid, {path + "Group=tpo", "Solver/Tolerence=1"}),
-              HasSubstr("/Boundary Conditions/Pressures/gas/Group: the mesh plate.msh has no group of sides called \"tpo\""));
+  EXPECT_THAT(
+      error(valid, {path + "Group=tpo", "Solver/Tolerence=1"}),
+      HasSubstr("/Boundary Conditions/Pressures/gas/Group: the mesh plate.msh has no group of sides called \"tpo\""));
 }
 
 // --- steps of the load ---

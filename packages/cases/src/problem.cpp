@@ -58,8 +58,7 @@ discretization::Loads<dim> make_loads(const Case& input, Amplitudes& amplitudes)
   }
   return {std::move(tractions),
           amplitudes.ramp<dim>("Body Force", conditions.body_force_rate, conditions.body_force_constant),
-          std::move(weight),
-          std::move(pressures)};
+          std::move(weight), std::move(pressures)};
 }
 
 template <int dim>

@@ -56,9 +56,10 @@ void check_names(const Values& step, const std::multimap<std::string, Condition>
                    fmt::format("found {}; the conditions with a \"Rate\" are {}{}", input::in_quotes(name),
                                base::quoted_list(allowed), base::did_you_mean(name, allowed)));
     } else if (conditions.count(name) > 1) {
-      step.mistake("Conditions", fmt::format("found {}, which is the name of several conditions; allowed are names that "
-                                             "only one has",
-                                             input::in_quotes(name)));
+      step.mistake("Conditions",
+                   fmt::format("found {}, which is the name of several conditions; allowed are names that "
+                               "only one has",
+                               input::in_quotes(name)));
     }
   }
 }
@@ -92,9 +93,10 @@ void check_increments(const Values& loading, const std::vector<Values>& steps) {
 void declare(const input::Section& section, Step& step) {
   using namespace input;
   section.required("Increments", step.increments, 10, count(), "Of this step.");
-  section.required("Conditions", step.conditions, {"press"}, names("a list of conditions such as {press}"),
-                   "Displacements, tractions and pressures by their names, \"Body Force\" and \"Self-Weight\". Those that are not "
-                   "listed stay as they are.");
+  section.required(
+      "Conditions", step.conditions, {"press"}, names("a list of conditions such as {press}"),
+      "Displacements, tractions and pressures by their names, \"Body Force\" and \"Self-Weight\". Those that are not "
+      "listed stay as they are.");
   section.required(
       "Values", step.values, {1.}, numbers("one number for each condition"),
       "What the Rate of each condition is multiplied by at the end of the step [-]; within it that changes "

@@ -39,9 +39,9 @@ namespace {
 /// @param of an area vector, [length^(dim-1)]
 template <class Of>
 auto shape_integrals(const std::vector<Point<2>>& x, Of of) {
+  using Integral = std::decay_t<decltype(of(Point<2>()))>;
   const Point<2> along = x[1] - x[0];
-  const auto half = of(Point<2>(along[1], -along[0])) / 2.;
-  return std::vector<std::decay_t<decltype(of(Point<2>()))>>{half, half};
+  return std::vector<Integral>(2, of(Point<2>(along[1], -along[0])) / 2.);
 }
 
 template <class Of>
@@ -98,10 +98,12 @@ std::vector<double> Loads<dim>::integrate(const mesh::Mesh<dim>& mesh, const ele
   };
   for (const auto& traction : tractions_) {
     const Point<dim> per_area = value(traction.value);
-    add_on(traction.side_set, [](const Point<dim>& area) { return area.norm(); }, per_area);
+    add_on(
+        traction.side_set, [](const Point<dim>& area) { return area.norm(); }, per_area);
   }
   for (const auto& pressure : pressures_) {
-    add_on(pressure.side_set, [](const Point<dim>& area) { return area; }, -value(pressure.value));
+    add_on(
+        pressure.side_set, [](const Point<dim>& area) { return area; }, -value(pressure.value));
   }
   const Point<dim> anywhere = value(body_force_), acceleration = value(self_weight_.acceleration);
   if (anywhere.isZero(0.) && acceleration.isZero(0.)) return forces;

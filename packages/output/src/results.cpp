@@ -136,7 +136,9 @@ void Results<dim>::accept(int increment, const Body<dim>& body) {
   const GlobalId newly_broken = count(increment, body.counts());
   const auto record = record_of(increment, body);
   const auto values = values_of(record);
-  if (increment % output_every_ == 0 || newly_broken > 0 || increment == last_increment_) fields_->write(increment, body, values);
+  if (increment % output_every_ == 0 || newly_broken > 0 || increment == last_increment_) {
+    fields_->write(increment, body, values);
+  }
   if (exports_) exports_->accept(increment, body);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;

@@ -73,8 +73,8 @@ class Dirichlet {
   std::vector<Ramp<double>> values_;
 };
 
-/// Forces of tractions, pressures and body forces on the nodes of the current topology, consistent with the shape functions
-/// [WHL19, eq. 12, 19].
+/// Forces of tractions, pressures and body forces on the nodes of the current topology, consistent with the shape
+/// functions [WHL19, eq. 12, 19].
 template <int dim>
 class Loads {
  public:
