@@ -88,5 +88,25 @@ TEST(AutomaticSeed, IsNowhereInABodyWithoutLoad) {
   EXPECT_TRUE(places(specimen).empty());
 }
 
+TEST(AutomaticSeed, IsPlacedUnderTheLargestLoadOfStepsThatEndWithNone) {
+  const auto comm = Tpetra::getDefaultComm();
+  const auto amplitude = std::make_shared<const discretization::Amplitude>(
+      std::vector<discretization::Amplitude::Knot>{{0., 0.}, {2., 3.}, {4., 0.}});
+  Specimen specimen = notched_plate(10., 0.);
+  specimen.displacements[2].value.amplitude = amplitude.get();
+  const auto mesh = mesh::distribute(*comm, specimen.whole, specimen.horizon);
+  auto problem = make_problem(specimen);
+  problem.amplitudes = {amplitude};
+  problem.common_amplitude = amplitude.get();
+  problem.automatic_seeds = {{"seed", 6., 12., 0.8}};
+  base::Profile profile;
+
+  fracture::place_automatic_seeds<2>(comm, mesh, make_options(specimen), 4, problem, profile,
+                                     base::make_log(*comm, true));
+
+  ASSERT_EQ(problem.seeds.size(), 1u);
+  EXPECT_EQ(problem.seeds[0].alpha({10., 20.}, morphing::BlendingFunction::linear), 1.);
+}
+
 }  // namespace
 }  // namespace perimorph::tests

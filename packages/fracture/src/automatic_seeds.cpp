@@ -66,6 +66,21 @@ bool comes_before(const StretchedPlace<dim>& a, const StretchedPlace<dim>& b) {
   return a.strain != b.strain ? a.strain > b.strain : a.element < b.element;
 }
 
+/// The increment in which the amplitudes of loads reach furthest; without any, the last.
+template <int dim>
+int most_loaded(const Problem<dim>& problem, int last_increment) {
+  int most = last_increment;
+  double largest = 0.;
+  for (int k = 1; k <= last_increment; ++k) {
+    for (const auto& amplitude : problem.amplitudes) {
+      if (std::abs(amplitude->at(k)) <= largest) continue;
+      largest = std::abs(amplitude->at(k));
+      most = k;
+    }
+  }
+  return most;
+}
+
 }  // namespace
 
 template <int dim>
@@ -110,7 +125,7 @@ void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mes
   NumericalOptions accurate = options;
   accurate.tolerance = std::min(options.tolerance, 1e-9);  // much finer than strains are told apart
   Body<dim> body(comm, mesh, elastic, accurate, profile);
-  body.prescribe(problem.prescribed_in(last_increment));
+  body.prescribe(problem.prescribed_in(most_loaded(problem, last_increment)));
   body.update_topology();
   body.solve(Accuracy::accepted);
   for (const auto& seed : problem.automatic_seeds) {

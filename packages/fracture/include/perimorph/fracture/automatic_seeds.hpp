@@ -22,7 +22,7 @@ template <int dim>
 std::vector<StretchedPlace<dim>> most_stretched(const base::Comm& comm, const Body<dim>& body,
                                                 const Problem<dim>& problem, const model::AutomaticSeed& seed);
 
-/// Replaces the automatic seeds of a problem by zones: solves it once, at the last increment's load and without
+/// Replaces the automatic seeds of a problem by zones: solves it once, at the largest of its loads and without
 /// breaking anything, and takes the most stretched places [WHL19, section 3.1]; the log lists them. Does nothing if
 /// there are no automatic seeds. Collective. @throws as Body does.
 template <int dim>
