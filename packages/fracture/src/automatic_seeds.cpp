@@ -69,15 +69,13 @@ bool comes_before(const StretchedPlace<dim>& a, const StretchedPlace<dim>& b) {
 /// The increment in which the amplitudes of loads reach furthest; without any, the last.
 template <int dim>
 int most_loaded(const Problem<dim>& problem, int last_increment) {
+  const auto reach = [&](int increment) {
+    double largest = 0.;
+    for (const auto& one : problem.amplitudes) largest = std::max(largest, std::abs(one->at(increment)));
+    return largest;
+  };
   int most = last_increment;
-  double largest = 0.;
-  for (int k = 1; k <= last_increment; ++k) {
-    for (const auto& amplitude : problem.amplitudes) {
-      if (std::abs(amplitude->at(k)) <= largest) continue;
-      largest = std::abs(amplitude->at(k));
-      most = k;
-    }
-  }
+  for (int k = 1; k < last_increment; ++k) most = reach(k) > reach(most) ? k : most;
   return most;
 }
 

@@ -144,25 +144,24 @@ void Body<dim>::assemble() {
 template <int dim>
 void Body<dim>::solve(Accuracy accuracy) {
   PERIMORPH_ASSERT(topology_.is_built(), "there is no topology to solve on");
-  const auto u = base::field(state_.displacement);
-  if (!system_.has_forces()) {
-    system_.apply_load(state_.load_factor);
-    system_.space().expand(u, state_.load_factor);
-    system_.evaluate(u);
-  }
   balance(accuracy);
   if (measure_) {
     follow_measure();
     balance(accuracy);
   }
   state_.energies.external_work +=
-      base::sum(*comm_, work_.up_to(u, system_.internal_force(), system_.loads(), power_of_supports()));
+      base::sum(*comm_, work_.up_to(displacement(), system_.internal_force(), system_.loads(), power_of_supports()));
 }
 
 template <int dim>
 void Body<dim>::balance(Accuracy accuracy) {
   const auto u = base::field(state_.displacement);
   const auto before = state_.displacement;
+  if (!system_.has_forces()) {
+    system_.apply_load(state_.load_factor);
+    system_.space().expand(u, state_.load_factor);
+    system_.evaluate(u);
+  }
   const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
   const auto outcome = equilibrium_.find(system_, u, {tolerance, state_.force_scale, state_.counts.broken_bonds > 0});
   count(outcome);
@@ -194,26 +193,22 @@ void Body<dim>::follow_measure() {
                                         : "the crack has left the place where it is measured"));
   }
   const double step = (prescribed_ - measured()) / rate;
-  const auto u = base::field(state_.displacement);
-  for (int dof = 0; dof < u.size(); ++dof) u[dof] += step * response[dof];
+  for (std::size_t dof = 0; dof < response.size(); ++dof) state_.displacement[dof] += step * response[dof];
   if (problem_.is_proportional) state_.force_scale *= std::min(1., 1. + step / state_.load_factor);
   state_.load_factor += step;
   state_.load_step += step;
   work_.load_changes(state_.load_step);
-  system_.apply_load(state_.load_factor);
-  system_.space().expand(u, state_.load_factor);
-  system_.evaluate(u);
+  system_.forget_forces();
 }
 
 /// How the displacement grows with the load factor, on all local degrees of freedom, [length].
 template <int dim>
 std::vector<double> Body<dim>::load_response() {
+  auto response = state_.displacement;
   if (problem_.is_proportional) {
-    auto response = state_.displacement;
     for (double& u : response) u /= state_.load_factor;
     return response;
   }
-  std::vector<double> response(state_.displacement.size());
   const auto outcome = equilibrium_.find_load_response(system_, base::field(response), options_.damage_tolerance);
   count(outcome);
   if (!outcome.converged) throw UnfinishedIncrement(reason_for(outcome.trouble));
@@ -356,15 +351,7 @@ Energies Body<dim>::energies() const {
 
 template <int dim>
 operators::Overlap<dim> Body<dim>::overlap() const {
-  const auto own = operators::largest_overlap(model(), facing_sides_, displacement());
-  std::vector<double> numbers = {own.depth};
-  numbers.insert(numbers.end(), own.place.begin(), own.place.end());
-  const auto all = base::gather_on_all(*comm_, numbers);
-  operators::Overlap<dim> largest;
-  for (auto one = all.begin(); one != all.end(); one += dim + 1) {
-    if (*one > largest.depth) largest = {*one, Eigen::Map<const base::Point<dim>>(&one[1])};
-  }
-  return largest;
+  return operators::largest_overlap(*comm_, model(), facing_sides_, displacement());
 }
 
 template <int dim>

@@ -76,9 +76,11 @@ std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>& mesh, const std::ve
   return facing;
 }
 
+namespace {
+
+/// On this rank.
 template <int dim>
-Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing,
-                             base::ConstField u) {
+Overlap<dim> own_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing, base::ConstField u) {
   Overlap<dim> largest;
   for (const auto& [first, second] : facing) {
     if (are_joined(model.bonds, first.element, second.element)) continue;
@@ -93,9 +95,26 @@ Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<F
   return largest;
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                  \
-  template std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>&, const std::vector<char>&); \
-  template Overlap<dim> largest_overlap(const CoupledModel<dim>&, const std::vector<FacingSides>&, base::ConstField);
+}  // namespace
+
+template <int dim>
+Overlap<dim> largest_overlap(const base::Comm& comm, const CoupledModel<dim>& model,
+                             const std::vector<FacingSides>& facing, base::ConstField u) {
+  const auto own = own_overlap(model, facing, u);
+  std::vector<double> numbers = {own.depth};
+  numbers.insert(numbers.end(), own.place.begin(), own.place.end());
+  const auto all = base::gather_on_all(comm, numbers);
+  Overlap<dim> largest;
+  for (auto one = all.begin(); one != all.end(); one += dim + 1) {
+    if (*one > largest.depth) largest = {*one, Eigen::Map<const Point<dim>>(&one[1])};
+  }
+  return largest;
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                                    \
+  template std::vector<FacingSides> facing_sides(const mesh::Mesh<dim>&, const std::vector<char>&);                   \
+  template Overlap<dim> largest_overlap(const base::Comm&, const CoupledModel<dim>&, const std::vector<FacingSides>&, \
+                                        base::ConstField);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

@@ -18,14 +18,8 @@ CoupledBody plate(bool discontinuous) {
 }
 
 operators::Overlap<2> largest(const CoupledBody& body, const std::vector<double>& u) {
-  const auto own =
-      operators::largest_overlap(body.model(), operators::facing_sides(body.mesh, body.discontinuous), base::field(u));
-  const auto all = base::gather_on_all<double>(*body.comm, {own.depth, own.place[0], own.place[1]});
-  operators::Overlap<2> found;
-  for (std::size_t i = 0; i < all.size(); i += 3) {
-    if (all[i] > found.depth) found = {all[i], {all[i + 1], all[i + 2]}};
-  }
-  return found;
+  const auto facing = operators::facing_sides(body.mesh, body.discontinuous);
+  return operators::largest_overlap(*body.comm, body.model(), facing, base::field(u));
 }
 
 /// The displacement of every node, by an element that has it.

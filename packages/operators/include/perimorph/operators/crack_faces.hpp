@@ -25,12 +25,12 @@ struct Overlap {
   base::Point<dim> place = base::Point<dim>::Zero();  ///< in the reference mesh, (dim), [length]
 };
 
-/// The largest one on this rank: -(u2 - u1) . n at the corners of sides whose elements no unbroken bond joins, with the
-/// normal n of the reference mesh, as strains are small. Local.
+/// The largest one of all ranks: -(u2 - u1) . n at the corners of sides whose elements no unbroken bond joins, with the
+/// normal n of the reference mesh, as strains are small. Collective.
 /// @param facing what facing_sides() returned for the present topology
 /// @param u on all local degrees of freedom (copies too), [length]
 template <int dim>
-Overlap<dim> largest_overlap(const CoupledModel<dim>& model, const std::vector<FacingSides>& facing,
-                             base::ConstField u);
+Overlap<dim> largest_overlap(const base::Comm& comm, const CoupledModel<dim>& model,
+                             const std::vector<FacingSides>& facing, base::ConstField u);
 
 }  // namespace perimorph::operators
