@@ -118,7 +118,7 @@ struct Course {
   base::GlobalId broken = 0;
 };
 
-Course run(Specimen specimen, double last, int increments) {
+Course run(const Specimen& specimen, double last, int increments) {
   SpecimenBody test(specimen);
   Course course;
   double before = 0., peak = 0., fall = 0.;
