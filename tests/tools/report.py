@@ -140,6 +140,13 @@ class Curves(InFolder):
         case_file.write_case(self.folder / "resolved.xml", case)
         return runs.curves_of(runs.History(str(self.folder)))
 
+    def test_are_over_the_measure_where_increments_prescribe_one(self):
+        (self.folder / "history.csv").write_text("increment,load_factor,broken_bonds,measure,reaction_top_y\n1,7,0,0.1,10\n")
+        history = runs.History(str(self.folder))
+        self.assertEqual(runs.curves_of(history), [("measure", "reaction_top_y")])
+        self.assertEqual(runs.curves_of(history, y=["load_factor"]), [("measure", "load_factor")])
+        self.assertEqual(runs.curves_of(history, x="increment", y=["load_factor"]), [("increment", "load_factor")])
+
     def test_are_those_of_groups_that_are_moved(self):
         self.assertEqual(self.curves("top"), [("displacement_top_y", "reaction_top_y")])
         self.assertEqual(len(self.curves("top", "left")), 2)

@@ -93,12 +93,12 @@ def has_increments(folder):
 def curves_of(history, x=None, y=None):
     """Pairs of columns (x, y) to draw. A group that is not moved itself may share nodes with one that is: what it does
     there is no force-displacement curve."""
+    x = x or ("measure" if "measure" in history.columns else None)
     if y:
         for name in y:
             history[name]
         return [(x or "load_factor", name) for name in y]
     reactions = history.nonzero("reaction_")
-    x = x or ("measure" if "measure" in history.columns else None)
     if x:
         return [(x, name) for name in reactions or ["load_factor"]]
     displacements = {name: "displacement_" + name[len("reaction_"):] for name in reactions}

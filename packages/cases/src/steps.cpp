@@ -1,6 +1,7 @@
 #include "perimorph/cases/steps.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <set>
 
@@ -77,7 +78,7 @@ void check_step(const Values& step, const std::multimap<std::string, Condition>&
 
 void check_increments(const Values& loading, const std::vector<Values>& steps) {
   const int* increments = loading.count("Increments");
-  int sum = 0;
+  std::int64_t sum = 0;
   for (const auto& step : steps) {
     const int* own = step.count("Increments");
     if (own == nullptr) return;
