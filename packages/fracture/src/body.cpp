@@ -117,7 +117,7 @@ void Body<dim>::rebuild(bool has_grown) {
     if (change.numbering) move_to_new_numbering();
   }
   assemble();
-  if (measure_ && state_.counts.topologies > 0) renew_forces();
+  if (measure_ && state_.counts.topologies > 0) renew_forces();  // from which the work goes on
   state_.break_calls_before_topology = state_.break_calls;
   ++state_.counts.topologies;
 }
