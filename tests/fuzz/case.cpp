@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The file with the bytes, and beside it "plate.msh", a square with the groups left, right and top.
+/// The file with the bytes, and beside it "plate.msh", a square with the groups left, right and top, and "pull.csv".
 class CaseFile : public perimorph::fuzz::InputFile {
  public:
   CaseFile() : InputFile(".xml") {
@@ -19,6 +19,7 @@ class CaseFile : public perimorph::fuzz::InputFile {
            "$PhysicalNames\n4\n1 1 \"left\"\n1 2 \"right\"\n1 3 \"top\"\n2 4 \"body\"\n$EndPhysicalNames\n"
            "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
            "$Elements\n4\n1 1 2 1 1 1 4\n2 1 2 2 2 2 3\n3 1 2 3 3 3 4\n4 3 2 4 4 1 2 3 4\n$EndElements\n";
+    std::ofstream(folder() / "pull.csv") << "time, value\n0, 0\n1, 2\n3, 1\n";
   }
 };
 

@@ -52,7 +52,7 @@ TEST_F(CaseFile, BinaryFile) {
 TEST_F(CaseFile, HugeFileIsNotRead) {
   std::ofstream(file()) << valid;
   std::filesystem::resize_file(file(), (16 << 20) + 1);  // sparse
-  EXPECT_THAT(error_of_file(file()), HasSubstr("is too large (16777217 bytes); a case file has at most 16 MiB"));
+  EXPECT_THAT(error_of_file(file()), HasSubstr("is too large (16777217 bytes); a case file (.xml) has at most 16 MiB"));
 }
 
 // --- harm ---

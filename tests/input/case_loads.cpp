@@ -90,7 +90,9 @@ TEST_F(CaseFile, MistakesOfStepsAreNamed) {
                     both = path + "Conditions={pull, wind}", values = path + "Values={4, 1}";
   const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
       {{own, both, values}, "/Loading/Increments: found 100; allowed are up to 8, as many as the steps have"},
-      {{n, own, both}, "/Loading/Steps/up/Values: missing"},
+      {{n, own, both}, "/Loading/Steps/up/Values: missing; needed is one number for each"},
+      {{n, own}, "/Loading/Steps/up/Conditions: missing; needed is a list of conditions such as {press}, or one in"},
+      {{n, own, values}, "/Loading/Steps/up/Values: found without \"Conditions\""},
       {{n, own, both, path + "Values={4}"},
        "/Loading/Steps/up/Values: found 1 numbers for 2 conditions; allowed is one"},
       {{n, own, path + "Conditions={pul, wind}", values},
@@ -102,6 +104,101 @@ TEST_F(CaseFile, MistakesOfStepsAreNamed) {
        "/Boundary Conditions/Tractions/wind/Rate: found, but no step in /Loading/Steps names this condition"},
       {{n, own, both, values, "Loading/Control=Measure"}, "/Loading/Control: found \"Measure\" beside /Loading/Steps"}};
   for (const auto& [options, text] : mistakes) EXPECT_THAT(error(valid, options), HasSubstr(text));
+}
+
+// --- cycles, and tables from files ---
+
+TEST_F(CaseFile, CyclesLeadToTheValuesAndBack) {
+  const std::string hold = "Loading/Steps/hold/", shake = "Loading/Steps/shake/", end = "Loading/Steps/unload/";
+  const perimorph::cases::Case input =
+      read(valid, {"Loading/Increments=27", hold + "Increments=2", hold + "Conditions={pull, wind}",
+                   hold + "Values={1, 3}", shake + "Increments=6", shake + "Cycles=4", shake + "Conditions={pull}",
+                   shake + "Values={4}", end + "Increments=1", end + "Conditions={pull}", end + "Values={0}"});
+  const auto problem = perimorph::cases::make_problem<2>(input);
+  const auto& pull = *problem.displacements[1].value.amplitude;
+  for (const double begin : {2., 8., 14., 20.}) {
+    EXPECT_EQ(pull.at(begin), 1.);
+    EXPECT_EQ(pull.at(begin + 2.), 3.);
+    EXPECT_EQ(pull.at(begin + 3.), 4.);
+    EXPECT_EQ(pull.at(begin + 5.), 2.);
+  }
+  EXPECT_EQ(pull.at(26.), 1.);
+  EXPECT_EQ(pull.at(27.), 0.);
+  EXPECT_THAT(error(valid, {"Loading/Increments=28", shake + "Increments=6", shake + "Cycles=4",
+                            shake + "Conditions={pull, wind}", shake + "Values={4, 1}"}),
+              HasSubstr("/Loading/Increments: found 28; allowed are up to 24"));
+}
+
+class TableOfACase : public CaseFile {
+ protected:
+  void write(const std::string& text) const { std::ofstream(folder_ / "pull.csv") << text; }
+
+  const std::string pull_ = "Loading/Steps/pull/", table_ = pull_ + "Tables/pull/File=pull.csv";
+  const std::vector<std::string> step_ = {"Loading/Increments=20", pull_ + "Increments=10", pull_ + "Cycles=2", table_,
+                                          "Boundary Conditions/Tractions/wind/Rate={0, 0}"};
+};
+
+TEST_F(TableOfACase, ItsTimesAreSpreadOverTheIncrementsOfEachCycle) {
+  write("t, a\n100, 0\n150, 2\n180, -1\n200, 0\n");
+  const perimorph::cases::Case input = read(valid, step_);
+  const auto problem = perimorph::cases::make_problem<2>(input);
+  const auto& pull = *problem.displacements[1].value.amplitude;
+  for (const double begin : {0., 10.}) {
+    EXPECT_DOUBLE_EQ(pull.at(begin + 2.5), 1.);
+    EXPECT_DOUBLE_EQ(pull.at(begin + 5.), 2.);
+    EXPECT_DOUBLE_EQ(pull.at(begin + 8.), -1.);
+    EXPECT_DOUBLE_EQ(pull.at(begin + 10.), 0.);
+  }
+}
+
+TEST_F(TableOfACase, ItsRowsDecideWhatIsComputedAndItsNameDoesNot) {
+  const auto lines = [&](const std::string& text, const std::string& name) {
+    std::ofstream(folder_ / name) << text;
+    auto step = step_;
+    step[3] = pull_ + "Tables/pull/File=" + name;
+    return perimorph::cases::deciding_lines(read(valid, step));
+  };
+  const std::string one = lines("0,0\n1,2\n2,0\n", "pull.csv");
+  EXPECT_EQ(one, lines("# the same\n0, 0\n1, 2.0\n2, 0\n", "other.csv"));
+  EXPECT_NE(one, lines("0,0\n1,3\n2,0\n", "pull.csv"));
+  EXPECT_THAT(one, HasSubstr("/Loading/Steps/pull/Tables/pull: row 2 = 1, 2\n"));
+}
+
+TEST_F(TableOfACase, MistakesNameItsLineAndThatOfTheCase) {
+  const std::string at = "/Loading/Steps/pull/Tables/pull/File: " + (folder_ / "pull.csv").string();
+  const auto says = [&](const std::string& text, const std::string& message) {
+    write(text);
+    EXPECT_THAT(error(valid, step_), HasSubstr(at + message));
+  };
+  says("0,0\n", ": found 1 row of a time and a value; allowed are at least 2");
+  says("t,a\n", ": found no row of a time and a value");
+  says("0,0\n2,1\n1,0\n", ":3: found the time 1 after 2; allowed are times that rise");
+  says("0,0\n1,1\n1,0\n", ":3: found the time 1 after 1; allowed are times that rise");
+  says("-1e308,0\n1e308,1\n", ":2: found the time 1e+308 after -1e+308; allowed are times that rise");
+  says("0,0\n1,one\n", ":2: found \"1,one\"; allowed are 2 numbers");
+  says("0,0.5\n1,0.5\n", ":1: found the value 0.5; allowed is 0, which the condition has at the beginning");
+  says("0,0\n1,2\n", ":2: found the value 2; allowed is 0, with which the next cycle begins");
+  std::filesystem::remove(folder_ / "pull.csv");
+  EXPECT_THAT(error(valid, step_), HasSubstr(at + ": there is no such file; a table (.csv) is needed"));
+}
+
+TEST_F(TableOfACase, MistakesOfCyclesAreNamed) {
+  write("0,0\n1,1\n2,0\n");
+  auto many = step_, odd = step_, twice = step_, unknown = step_;
+  many[2] = pull_ + "Cycles=1000000";
+  EXPECT_THAT(error(valid, many), HasSubstr("/Loading/Steps/pull/Cycles: found 1000000; allowed are up to 333333"));
+  odd[1] = pull_ + "Increments=5";
+  EXPECT_THAT(error(valid, odd), HasSubstr("/Loading/Increments: found 20; allowed are up to 10"));
+  odd[0] = "Loading/Increments=10";
+  odd[3] = pull_ + "Conditions={pull}";
+  odd.push_back(pull_ + "Values={1}");
+  EXPECT_THAT(error(valid, odd),
+              HasSubstr("/Loading/Steps/pull/Increments: found 5 with \"Cycles\"; allowed are even"));
+  twice.insert(twice.end(), {pull_ + "Conditions={pull}", pull_ + "Values={1}"});
+  EXPECT_THAT(error(valid, twice), HasSubstr("/Loading/Steps/pull/Tables/pull: found \"pull\" twice"));
+  unknown[3] = pull_ + "Tables/pul/File=pull.csv";
+  EXPECT_THAT(error(valid, unknown),
+              HasSubstr("/Loading/Steps/pull/Tables/pul: found \"pul\"; the conditions with a \"Rate\" are"));
 }
 
 }  // namespace

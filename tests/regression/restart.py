@@ -221,6 +221,42 @@ class LoadSteps(GrowingCrack):
                     self.assert_continues(whole, stop, *EVERY, ranks=ranks)
 
 
+class Cycles(GrowingCrack):
+    """Pulled and let go twice, further in the second stage, whose course is that of a table."""
+
+    CASE = changed(GrowingCrack.CASE, {"Loading/Steps": {
+        "pull": {"Increments": 4, "Cycles": 2, "Conditions": ["pull down", "pull up"], "Values": [14.0, 14.0]},
+        "table": {"Increments": 4, "Cycles": 2,
+                  "Tables": {"pull down": {"File": "pull.csv"}, "pull up": {"File": "pull.csv"}}}}})
+
+    def setUp(self):
+        super().setUp()
+        self.write_table(15.0)
+
+    def write_table(self, most):
+        (self.folder / "pull.csv").write_text(f"time [s], factor\n0, 0\n3, {most}\n4, 0\n")
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stop in [(1, 3), (1, 10), (2, 11), (4, 5)]:
+            with self.subTest(ranks=ranks, stop=stop):
+                self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                whole = self.outcome()
+                broken = [int(row["broken_bonds"]) for row in whole[0]]
+                self.assertGreater(broken[1], 100)
+                self.assertEqual(broken[1], broken[7])
+                self.assertGreater(broken[10], broken[7])
+                self.assertEqual(broken[10], broken[15])
+                self.assert_continues(whole, stop, *EVERY, ranks=ranks)
+
+    def test_the_checkpoint_of_another_table_is_refused(self):
+        self.run_until(2)
+        self.write_table(16.0)
+        run = self.run_case("--restart")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn('there "/Loading/Steps/table/Tables/pull down: row 2 = 3, 15", '
+                      'here "/Loading/Steps/table/Tables/pull down: row 2 = 3, 16"', run.stderr)
+
+
 class SeveralMaterials(GrowingCrack):
     """Two materials in a pattern, and interfaces weaker than both."""
 

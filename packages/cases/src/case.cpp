@@ -56,7 +56,7 @@ void declare_case(const Section& root, Case& input) {
 
 /// What several parameters must agree on. Checks that lack a value they need say nothing: that mistake is already
 /// listed.
-void check(const Resolved& resolved, Mistakes& mistakes) {
+void check(const Resolved& resolved, const std::string& folder, Mistakes& mistakes) {
   const input::Values root(resolved, mistakes);
   const int* dimension = root.count("Dimension");
   if (dimension == nullptr) return;  // what is wrong depends on it
@@ -67,7 +67,7 @@ void check(const Resolved& resolved, Mistakes& mistakes) {
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);
   check_solver(root.sub("Solver"), has_dilatation(root), softens(root));
   check_loading(root.sub("Loading"), *dimension, softens(root));
-  check_steps(root);
+  check_steps(root, folder);
   check_output(root.sub("Output"), *dimension);
 }
 
@@ -167,7 +167,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
                mesh_files::SideEffects side_effects) {
   Mistakes mistakes(file);
   Resolved resolved = input::read(file, overrides, case_schema(), mistakes);
-  check(resolved, mistakes);
+  check(resolved, folder_of(file), mistakes);
   if (!mistakes.empty()) {
     Case input = take(file, resolved, mistakes);
     input.mesh.meshing.side_effects = side_effects;
@@ -180,12 +180,15 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   Case input = take(file, resolved, mistakes);
   input.mesh.meshing.side_effects = side_effects;
   name_results(input);
+  read_tables(input.directory, input.loading.steps);
   complete_lengths(input);
   complete_reactions(input);
   input.numerical.damage_tolerance = std::max(input.numerical.damage_tolerance, input.numerical.tolerance);
   return input;
 }
 
-std::string deciding_lines(const Case& input) { return input::deciding_listing(input.resolved, case_schema()); }
+std::string deciding_lines(const Case& input) {
+  return input::deciding_listing(input.resolved, case_schema()) + listing_of_tables(input.loading.steps);
+}
 
 }  // namespace perimorph::cases

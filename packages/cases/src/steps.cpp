@@ -1,144 +1,112 @@
 #include "perimorph/cases/steps.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <map>
-#include <set>
+#include <filesystem>
 
-#include "perimorph/base/text.hpp"
+#include "perimorph/base/errors.hpp"
 
 namespace perimorph::cases {
 
 namespace {
 
-using input::Values;
+using discretization::Amplitude;
 
-constexpr const char* conditions_path = "Boundary Conditions";
+/// Grows by the steps.
+class Course {
+ public:
+  const Amplitude::Knot& end() const { return knots_.back(); }
 
-/// A condition that steps may name, and whether its rate is not zero.
-struct Condition {
-  Values section;
-  bool has_rate;
+  /// Not between increments that round alike.
+  void go_to(double increment, double value) {
+    if (increment > end().increment) knots_.push_back({increment, value});
+  }
+
+  Amplitude amplitude() && { return Amplitude(std::move(knots_)); }
+
+ private:
+  std::vector<Amplitude::Knot> knots_ = {{0., 0.}};
 };
 
-bool is_nonzero(const Values& section) {
-  const double* number = section.number("Rate");
-  if (number != nullptr) return *number != 0.;
-  const auto* numbers = section.numbers("Rate");
-  return numbers != nullptr && std::any_of(numbers->begin(), numbers->end(), [](double rate) { return rate != 0.; });
-}
-
-std::string name_of(const Values& section) { return section.path().substr(section.path().rfind('/') + 1); }
-
-/// By name; several may have one.
-std::multimap<std::string, Condition> conditions_of(const Values& root) {
-  const Values all = root.sub(conditions_path);
-  std::multimap<std::string, Condition> found;
-  const auto add = [&](const Values& one) { found.emplace(name_of(one), Condition{one, is_nonzero(one)}); };
-  for (const char* kind : {"Displacements", "Tractions", "Pressures"}) {
-    for (const auto& one : all.subs(kind)) add(one);
-  }
-  for (const char* kind : {"Body Force", "Self-Weight"}) add(all.sub(kind));
-  return found;
-}
-
-void check_names(const Values& step, const std::multimap<std::string, Condition>& conditions,
-                 const Teuchos::Array<std::string>& names) {
-  std::vector<std::string> allowed;
-  for (const auto& [name, condition] : conditions) {
-    if (condition.has_rate) allowed.push_back(name);
-  }
-  std::set<std::string> seen;
-  for (const std::string& name : names) {
-    if (!seen.insert(name).second) {
-      step.mistake("Conditions", fmt::format("found {} twice; allowed is each once", input::in_quotes(name)));
-    } else if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
-      step.mistake("Conditions",
-                   fmt::format("found {}; the conditions with a \"Rate\" are {}{}", input::in_quotes(name),
-                               base::quoted_list(allowed), base::did_you_mean(name, allowed)));
-    } else if (conditions.count(name) > 1) {
-      step.mistake("Conditions",
-                   fmt::format("found {}, which is the name of several conditions; allowed are names that "
-                               "only one has",
-                               input::in_quotes(name)));
+void follow_table(const Step& step, const std::vector<input::TableRow>& rows, Course& course) {
+  const double start = course.end().increment, first = rows.front().numbers[0], last = rows.back().numbers[0];
+  for (int cycle = 0; cycle < step.cycles.value_or(1); ++cycle) {
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const double share = (rows[i].numbers[0] - first) / (last - first);
+      course.go_to(start + (cycle + share) * step.increments, rows[i].numbers[1]);
     }
   }
 }
 
-void check_step(const Values& step, const std::multimap<std::string, Condition>& conditions) {
-  const auto* names = step.texts("Conditions");
-  const auto* values = step.numbers("Values");
-  if (names == nullptr || values == nullptr) return;
-  check_names(step, conditions, *names);
-  if (names->size() == values->size()) return;
-  step.mistake("Values",
-               fmt::format("found {} numbers for {}; allowed is one for each of \"Conditions\"", values->size(),
-                           base::counted(static_cast<std::size_t>(names->size()), "condition")));
+void go_there_and_back(const Step& step, double value, Course& course) {
+  const auto start = course.end();
+  for (int cycle = 0; cycle < *step.cycles; ++cycle) {
+    course.go_to(start.increment + (cycle + 0.5) * step.increments, value);
+    course.go_to(start.increment + (cycle + 1.) * step.increments, start.value);
+  }
 }
 
-void check_increments(const Values& loading, const std::vector<Values>& steps) {
-  const int* increments = loading.count("Increments");
-  std::int64_t sum = 0;
-  for (const auto& step : steps) {
-    const int* own = step.count("Increments");
-    if (own == nullptr) return;
-    sum += *own;
+void follow(const Step& step, const std::string& condition, Course& course) {
+  const auto table =
+      std::find_if(step.tables.begin(), step.tables.end(), [&](const LoadTable& one) { return one.name == condition; });
+  const auto found = std::find(step.conditions.begin(), step.conditions.end(), condition);
+  const auto value = [&] { return step.values.at(static_cast<std::size_t>(found - step.conditions.begin())); };
+  const double end = course.end().increment + step.all_increments();
+  if (table != step.tables.end()) {
+    follow_table(step, table->rows, course);
+  } else if (found == step.conditions.end()) {
+    course.go_to(end, course.end().value);
+  } else if (step.cycles) {
+    go_there_and_back(step, value(), course);
+  } else {
+    course.go_to(end, value());
   }
-  if (increments == nullptr || *increments <= sum) return;
-  loading.mistake("Increments",
-                  fmt::format("found {}; allowed are up to {}, as many as the steps have", *increments, sum));
 }
 
 }  // namespace
 
 void declare(const input::Section& section, Step& step) {
   using namespace input;
-  section.required("Increments", step.increments, 10, count(), "Of this step.");
-  section.required(
+  section.required("Increments", step.increments, 10, count(), "Of this step; with \"Cycles\" of each of them.");
+  section.optional(
       "Conditions", step.conditions, {"press"}, names("a list of conditions such as {press}"),
-      "Displacements, tractions and pressures by their names, \"Body Force\" and \"Self-Weight\". Those that are not "
-      "listed stay as they are.");
-  section.required(
+      "Displacements, tractions and pressures by their names, \"Body Force\" and \"Self-Weight\". Those that are "
+      "neither listed here nor in \"Tables\" stay as they are.");
+  section.optional(
       "Values", step.values, {1.}, numbers("one number for each condition"),
       "What the Rate of each condition is multiplied by at the end of the step [-]; within it that changes "
       "linearly from what it was before, which is 0 at first.");
+  section.optional("Cycles", step.cycles, 5, count(),
+                   "If given: within so many cycles, conditions go to their values and back to what they were before, "
+                   "half of the increments each way, and through their tables, which then end as they begin.");
+  section.entries("Tables", step.tables, declare,
+                  "Conditions that follow a table from a file in this step, each a list with the condition's name.",
+                  "The table of one condition.");
 }
 
-void check_steps(const Values& root) {
-  const Values loading = root.sub("Loading");
-  const auto steps = loading.subs("Steps");
-  if (steps.empty()) return;
-  const std::string* control = loading.text("Control");
-  if (control != nullptr && *control != "Load") {
-    loading.mistake("Control", fmt::format("found {} beside /Loading/Steps; allowed is \"Load\" with steps: a measure "
-                                           "decides on all loads together",
-                                           input::in_quotes(*control)));
+void read_tables(const std::string& folder, std::vector<Step>& steps) {
+  for (Step& step : steps) {
+    for (auto& table : step.tables) table.rows = read_load_table(std::filesystem::path(folder) / table.file);
   }
-  check_increments(loading, steps);
-  const auto conditions = conditions_of(root);
-  std::set<std::string> named;
+}
+
+std::string listing_of_tables(const std::vector<Step>& steps) {
+  std::string text;
   for (const auto& step : steps) {
-    check_step(step, conditions);
-    if (const auto* names = step.texts("Conditions")) named.insert(names->begin(), names->end());
+    for (const auto& table : step.tables) {
+      for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        const auto& numbers = table.rows[i].numbers;
+        text += fmt::format("/Loading/Steps/{}/Tables/{}: row {} = {}, {}\n", step.name, table.name, i + 1, numbers[0],
+                            numbers[1]);
+      }
+    }
   }
-  for (const auto& [name, condition] : conditions) {
-    if (!condition.has_rate || named.count(name) != 0) continue;
-    condition.section.mistake("Rate",
-                              "found, but no step in /Loading/Steps names this condition, so that it has no effect");
-  }
+  return text;
 }
 
-std::shared_ptr<const discretization::Amplitude> amplitude_of(const std::string& condition,
-                                                              const std::vector<Step>& steps) {
-  std::vector<discretization::Amplitude::Knot> knots = {{0., 0.}};
-  for (const Step& step : steps) {
-    auto next = knots.back();
-    next.increment += step.increments;
-    const auto found = std::find(step.conditions.begin(), step.conditions.end(), condition);
-    if (found != step.conditions.end()) next.value = step.values.at(found - step.conditions.begin());
-    knots.push_back(next);
-  }
-  return std::make_shared<const discretization::Amplitude>(std::move(knots));
+std::shared_ptr<const Amplitude> amplitude_of(const std::string& condition, const std::vector<Step>& steps) {
+  Course course;
+  for (const Step& step : steps) follow(step, condition, course);
+  return std::make_shared<const Amplitude>(std::move(course).amplitude());
 }
 
 }  // namespace perimorph::cases

@@ -1,15 +1,11 @@
 #include "xml_tree.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <pugixml.hpp>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/text.hpp"
+#include "text_file.hpp"
 
 namespace perimorph::input {
 
@@ -23,24 +19,9 @@ constexpr std::size_t longest_name = 200;
   throw base::UserError(fmt::format("{}: {}", file, why));
 }
 
-/// Only regular files: a pipe or a device could wait, or deliver, forever.
-void require_readable(const std::string& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (file.empty()) refuse("case file", "its name is empty");
-  if (!std::filesystem::exists(status)) refuse(file, "there is no such file; a case file (.xml) is needed");
-  if (std::filesystem::is_directory(status)) refuse(file, "is a directory; a case file (.xml) in it is needed");
-  if (!std::filesystem::is_regular_file(status)) refuse(file, "is not a regular file; a case file (.xml) is needed");
-  const auto bytes = std::filesystem::file_size(file, error);
-  if (error) refuse(file, "cannot be read: " + error.message());
-  if (bytes > most_bytes) refuse(file, fmt::format("is too large ({} bytes); a case file has at most 16 MiB", bytes));
-}
-
 std::string read_text(const std::string& file) {
-  require_readable(file);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(file, fmt::format("cannot be read: {}", std::strerror(errno)));
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (file.empty()) refuse("case file", "its name is empty");
+  std::string text = text_of_file(file, "a case file (.xml)", most_bytes);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) refuse(file, "is empty; a <ParameterList> is needed");
   if (text.find('\0') != std::string::npos) refuse(file, "is not a text file; XML in UTF-8 is needed");
   return text;
