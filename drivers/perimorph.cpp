@@ -24,7 +24,7 @@ namespace {
 using namespace perimorph;
 
 struct Arguments {
-  std::string case_file, output;
+  std::string case_file, output, preview;
   std::vector<std::string> overrides;
   bool quiet = false, no_progress = false, restart = false, allow_shell = false;
   bool markdown = false, relax_ng = false;
@@ -77,7 +77,7 @@ void carry_out(const Teuchos::RCP<const base::Comm>& comm, const std::string& co
     return;
   }
   const cases::Case input = read_case(*comm, arguments);
-  if (command == "check") return application::check(comm, input, arguments.verbosity());
+  if (command == "check") return application::check(comm, input, arguments.verbosity(), arguments.preview);
   application::run(comm, input, arguments.output.empty() ? "results/" + input.name : arguments.output,
                    arguments.verbosity(), arguments.start());
 }
@@ -122,6 +122,8 @@ int main(int argc, char** argv) {
   run->add_flag("--restart", arguments.restart, "Continue after the newest checkpoint in the folder of the results");
   auto* check = app.add_subcommand("check", "Check a case and its mesh, and say what a run would cost");
   add_case_options(*check, arguments);
+  check->add_option("--preview", arguments.preview, "Folder for what tools/preview draws the case from")
+      ->check(check_name);
   auto* params = app.add_subcommand("params", "Print every parameter with default, range, unit and meaning");
   auto* as_page = params->add_flag("--markdown", arguments.markdown, "As a Markdown page");
   params->add_flag("--relax-ng", arguments.relax_ng, "As a RELAX NG schema, for editors")->excludes(as_page);

@@ -55,6 +55,8 @@ class Installed(unittest.TestCase):
         tool = lambda name: self.prefix / f"bin/perimorph-{name}"
         self.command(tool("new-case"), "part", "--from", "plate")
         coarsen(self.folder / "part/part.geo", "dx = 1;", "dx = 2;")
+        self.command(tool("preview"), "part/part.xml", *settings("Peridynamics/Horizon=6", "Peridynamics/Characteristic Length=0.4"))
+        self.assertTrue((self.folder / "part-preview.png").is_file())
         self.command(tool("run"), "part/part.xml", "-n", "2", *settings(
             "Peridynamics/Horizon=6", "Peridynamics/Characteristic Length=0.4", "Loading/Increments=2"))
         self.command(tool("plot-history"), "results/part")

@@ -27,6 +27,8 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from fixture import PERIMORPH, TOOLS, InFolder
 
+import sides
+
 RUNS = pathlib.Path(sys.argv.pop(1))
 RUN = RUNS / "small_plate/out"
 
@@ -130,7 +132,7 @@ class Watch(InFolder):
         self.fill(RUNS / "small_block/out")
         watch = functions_of_watch()
         file = watch.latest_step(str(self.run_folder))
-        faces, elements = watch.outer_faces(file.connectivity())
+        faces, elements = sides.outer_sides(file.connectivity(), 3)
         places = numpy.stack(file.coordinates(), axis=-1)
         on_box = lambda at: (at.max(axis=0) - at.min(axis=0) == 0) & numpy.isin(at[0], [[0, 16, 4, -8, 8]]).any()
         outside = [at for at in places[faces] if on_box(at).any()]

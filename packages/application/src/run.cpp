@@ -18,6 +18,7 @@
 #include "perimorph/output/field_series.hpp"
 #include "perimorph/output/partition_costs.hpp"
 #include "perimorph/output/run_observer.hpp"
+#include "preview.hpp"
 #include "run_folder.hpp"
 
 namespace perimorph::application {
@@ -317,9 +318,10 @@ void describe_sizes(const base::Comm& comm, const fracture::Body<dim>& body, spd
 }
 
 template <int dim>
-void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
+void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity, const std::string& preview) {
   base::Profile profile;
   check_solver_parameters(input);
+  if (!preview.empty()) make_preview_folder(*comm, preview);
   const base::TemporaryFolder folder;
   const auto log = base::make_log(*comm, verbosity == Verbosity::quiet);
   auto problem = cases::make_problem<dim>(input);
@@ -342,6 +344,9 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity) {
   fracture::Body<dim> body(comm, mesh, problem, input.numerical, profile);
   body.update_topology();
   check_that_bonds_can_break(*comm, input, problem, body);
+  if (!preview.empty()) {
+    write_preview(comm, input, problem, body, model::element_size(*comm, mesh, problem), preview);
+  }
   describe_sizes(*comm, body, *log);
   describe_first_break(*comm, input, problem, body, log);
 }
@@ -355,8 +360,9 @@ void with_dimension(const cases::Case& input, Action action) {
 
 }  // namespace
 
-void check(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, Verbosity verbosity) {
-  with_dimension(input, [&](auto dim) { check_in<dim>(comm, input, verbosity); });
+void check(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, Verbosity verbosity,
+           const std::string& preview) {
+  with_dimension(input, [&](auto dim) { check_in<dim>(comm, input, verbosity, preview); });
 }
 
 void run(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, const std::string& folder,

@@ -21,6 +21,8 @@ void run(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, c
 
 /// Checks a case and its mesh and prints the resolved parameters, the material's derived constants and an estimate of
 /// unknowns, bonds and memory. Collective. @throws as run.
-void check(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, Verbosity verbosity);
+/// @param preview folder for what pictures of the case are drawn from (src/preview.hpp); "": none
+void check(const Teuchos::RCP<const base::Comm>& comm, const cases::Case& input, Verbosity verbosity,
+           const std::string& preview = "");
 
 }  // namespace perimorph::application
