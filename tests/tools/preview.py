@@ -46,6 +46,9 @@ STAGES = {
         "let go": {"Increments": 8, "Conditions": ["pull up"], "Values": [0.0]},
     },
 }
+CYCLES = {"Loading": {"Increments": 18, "Steps": {
+    "shake": {"Increments": 4, "Cycles": 3, "Conditions": ["pull up", "pull down"], "Values": [1.0, -2.0]},
+    "rest": {"Increments": 2, "Cycles": 3, "Conditions": ["pull up"], "Values": [0.0]}}}}
 MEASURE = {
     "Boundary Conditions/Tractions/pull right": {"Group": "right", "Rate": [2.0, -1.0], "Constant": [0.0, 0.5]},
     "Boundary Conditions/Displacements": {"hold x": {"Group": "lower", "Component": "x"}, "hold y": {"Group": "lower", "Component": "y"},
@@ -92,6 +95,16 @@ class WhatTheProgramSays(Preview):
         data = self.data()
         self.assertEqual(data.stages, ["run"])
         numpy.testing.assert_allclose({c.name: c.values[1] for c in data.conditions}["pull up"], 0.6, rtol=1e-14)
+
+    def test_cycles_that_end_where_they_begin_say_how_far_they_go(self):
+        data = self.data(CYCLES)
+        self.assertEqual([stage["Last Increment"] for stage in data.table["Stages"].values()], [12, 18])
+        rows = {row[0]: row[1:] for row in case_tables.conditions(data)}
+        self.assertEqual(rows["pull up"], ["upper", "u_y", "0 (up to 0.2)", "0"])
+        self.assertEqual(rows["pull down"], ["lower", "u_y", "0 (up to 0.4)", "0"])
+        pulled = Drawn(data, 0).arrows(MOVED)
+        self.assertTrue((pulled[:, 1, 1] > pulled[:, 0, 1]).all())  # where they go at most, both up
+        self.assertEqual(len(Drawn(data, 1).arrows(MOVED)), 0)
 
     def test_a_measure_leaves_the_load_factor_open(self):
         data = self.data(MEASURE)

@@ -31,13 +31,14 @@ def value_of(kind, text):
 
 class Condition:
     """A prescribed displacement, traction, pressure or body force. values: before the first increment and at the end of each
-    stage, (stages + 1, 1 or dimensions); where a measure decides on the load, without it and at a load factor of 1."""
+    stage, (stages + 1, 1 or dimensions); largest: in each stage. Where a measure decides on the load, values are those without it
+    and at a load factor of 1."""
 
     def __init__(self, kind, name, entry, n_dimensions):
         self.kind, self.name, self.group = kind, name, entry.get("Group")
         self.component = entry.get("Component")
         n_values = 1 if kind in ("Displacements", "Pressures") else n_dimensions
-        self.values = entry["Values"].reshape(-1, n_values)
+        self.values, self.largest = (entry[key].reshape(-1, n_values) for key in ("Values", "Largest"))
         self.n_dimensions = n_dimensions
 
     @property
@@ -46,29 +47,36 @@ class Condition:
         return {"Displacements": f"u_{AXES[self.component or 0]}", "Tractions": "t", "Pressures": "p", "Body Force": "b",
                 "Self-Weight": "g"}[self.kind]
 
+    def value(self, stage):
+        """That counts in a stage: at its end, or if that is zero the largest in it, or else the one before it."""
+        values = [self.values[stage + 1], self.largest[stage], self.values[stage]]
+        return next((value for value in values if value.any()), values[0])
+
     def holds(self, stage):
         """Whether it is a support in a stage: a displacement that stays zero."""
-        return self.kind == "Displacements" and not self.values[stage:stage + 2].any()
+        return self.kind == "Displacements" and not self.value(stage).any()
 
     def is_idle(self, stage):
         """Whether it is a load that is zero all through a stage."""
-        return self.kind != "Displacements" and not self.values[stage:stage + 2].any()
+        return self.kind != "Displacements" and not self.value(stage).any()
 
     def direction(self, stage):
-        """Where it acts in a stage, of length 1; None for pressures, which follow the normal, and for supports."""
-        value = next((self.values[place] for place in (stage + 1, stage) if self.values[place].any()), None)
-        if value is None or self.kind == "Pressures":
+        """Where it acts in a stage, of length 1; None for pressures, which follow the normal."""
+        value = self.value(stage)
+        if self.kind == "Pressures":
             return None
         if self.kind == "Displacements":
             return numpy.sign(value[0]) * numpy.eye(self.n_dimensions)[self.component]
-        return value / numpy.linalg.norm(value)
+        return of_length_one(value)
 
-    def text(self, place, follows_measure):
-        """Its value before the first increment (place 0) or at the end of a stage (from 1 on)."""
+    def text(self, stage, follows_measure):
+        """Its value at the end of a stage, and the largest in it where that lies beyond both ends."""
+        start, end, largest = self.values[stage], self.values[stage + 1], self.largest[stage]
         if not follows_measure:
-            return numbers_text(self.values[place])
-        constant, growth = self.values[0], self.values[1] - self.values[0]
-        terms = [numbers_text(constant)] if constant.any() or not growth.any() else []
+            is_beyond = ((largest < numpy.minimum(start, end)) | (largest > numpy.maximum(start, end))).any()
+            return numbers_text(end) + (f" (up to {numbers_text(largest)})" if is_beyond else "")
+        growth = end - start
+        terms = [numbers_text(start)] if start.any() or not growth.any() else []
         return " + ".join(terms + ([f"{numbers_text(growth)} λ"] if growth.any() else []))
 
 

@@ -228,7 +228,7 @@ class GroupSymbols:
         """Its ends in the plane."""
         direction = condition.direction(self.stage)
         if direction is None:  # a pressure
-            direction = -self.normals[at] * numpy.sign(pressing(condition, self.stage))
+            direction = -self.normals[at] * numpy.sign(condition.value(self.stage)[0])
         flat = self.drawing.look.flat
         along = flat(direction) / max(numpy.linalg.norm(flat(direction)), 0.5)
         slope = direction @ self.normals[at]
@@ -243,15 +243,9 @@ def apart(ends, other, size):
     return along @ of_length_one(other_shaft) < 0.9 or abs(way @ along) > length + 0.2 * size or abs(way @ across(along)) > 0.5 * size
 
 
-def pressing(condition, stage):
-    """A pressure's value in a stage, at its end unless it has gone then."""
-    end, start = condition.values[stage + 1][0], condition.values[stage][0]
-    return end if end else start
-
-
 def value_lines(data, conditions, stage):
     """A line each: what is prescribed, and its value at the end of a stage."""
-    return [f"{formula(c.symbol)} = {c.text(stage + 1, data.follows_measure)}" for c in conditions]
+    return [f"{formula(c.symbol)} = {c.text(stage, data.follows_measure)}" for c in conditions]
 
 
 def draw_group(drawing, labels, group, conditions, stage):

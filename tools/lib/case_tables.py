@@ -87,10 +87,8 @@ def stage_names(data):
 
 def condition_row(data, condition):
     """Name, group, symbol, and the value at the end of each stage."""
-    n_stages = len(stage_names(data))
-    values = [condition.text(place, data.follows_measure) for place in range(1, n_stages + 1)]
-    return [condition.name, condition.group or "all of the body", condition.symbol,
-            *([values[-1]] if data.follows_measure else values)]
+    values = [condition.text(stage, data.follows_measure) for stage in range(len(stage_names(data)))]
+    return [condition.name, condition.group or "all of the body", condition.symbol, *values]
 
 
 def conditions(data):

@@ -37,7 +37,7 @@ std::vector<Stage> stages_of(const cases::Loading& loading) {
   for (const auto& step : loading.steps) {
     if (last == loading.increments) break;
     const int first = last + 1;
-    last += std::min(step.increments, loading.increments - last);
+    last += static_cast<int>(std::min<double>(step.all_increments(), loading.increments - last));
     stages.push_back({step.name, first, last});
   }
   return stages;
@@ -51,14 +51,24 @@ void put_stages(const std::vector<Stage>& stages, ParameterList& list) {
   }
 }
 
-/// What a condition's rate is multiplied by: before the first increment, and at the end of each stage. Where a measure
-/// decides on the load factor, it is not known: once without it, and once at 1.
-std::vector<double> factors_of(const std::string& condition, const cases::Loading& loading) {
-  if (loading.control == cases::Control::measure) return {0., 1.};
+/// What a condition's rate is multiplied by.
+struct Factors {
+  std::vector<double> at_ends = {0.};  ///< before the first increment, and at the end of each stage
+  std::vector<double> largest = {};    ///< in each stage, by its magnitude
+};
+
+/// Where a measure decides on the load factor, it is not known: once without it, and once at 1.
+Factors factors_of(const std::string& condition, const cases::Loading& loading) {
+  if (loading.control == cases::Control::measure) return {{0., 1.}, {1.}};
   const auto amplitude = cases::amplitude_of(condition, loading.steps);
-  std::vector<double> factors = {0.};
+  const auto factor = [&](int increment) { return loading.steps.empty() ? increment : amplitude->at(increment); };
+  Factors factors;
   for (const auto& stage : stages_of(loading)) {
-    factors.push_back(loading.steps.empty() ? stage.last : amplitude->at(stage.last));
+    factors.at_ends.push_back(factor(stage.last));
+    factors.largest.push_back(factor(stage.first));
+    for (int k = stage.first; k <= stage.last; ++k) {
+      if (std::abs(factor(k)) > std::abs(factors.largest.back())) factors.largest.back() = factor(k);
+    }
   }
   return factors;
 }
@@ -81,7 +91,9 @@ class Conditions {
   ParameterList& put(const char* kind, const std::string& name, const std::vector<double>& rate,
                      const std::vector<double>& constant) {
     auto& one = list_.sublist(kind).sublist(name);
-    one.set("Values", values_at(factors_of(name, loading_), rate, constant));
+    const auto factors = factors_of(name, loading_);
+    one.set("Values", values_at(factors.at_ends, rate, constant));
+    one.set("Largest", values_at(factors.largest, rate, constant));
     return one;
   }
 
