@@ -91,7 +91,7 @@ TEST_F(CaseFile, MistakesOfStepsAreNamed) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
       {{own, both, values}, "/Loading/Increments: found 100; allowed are up to 8, as many as the steps have"},
       {{n, own, both}, "/Loading/Steps/up/Values: missing; needed is one number for each"},
-      {{n, own}, "/Loading/Steps/up/Conditions: missing; needed is a list of conditions such as {press}, or one in"},
+      {{n, own}, "/Loading/Steps/up/Conditions: missing; needed is a list of conditions such as {press}, one in"},
       {{n, own, values}, "/Loading/Steps/up/Values: found without \"Conditions\""},
       {{n, own, both, path + "Values={4}"},
        "/Loading/Steps/up/Values: found 1 numbers for 2 conditions; allowed is one"},
@@ -104,6 +104,42 @@ TEST_F(CaseFile, MistakesOfStepsAreNamed) {
        "/Boundary Conditions/Tractions/wind/Rate: found, but no step in /Loading/Steps names this condition"},
       {{n, own, both, values, "Loading/Control=Measure"}, "/Loading/Control: found \"Measure\" beside /Loading/Steps"}};
   for (const auto& [options, text] : mistakes) EXPECT_THAT(error(valid, options), HasSubstr(text));
+}
+
+TEST_F(CaseFile, AStepReleasesConditions) {
+  const std::string up = "Loading/Steps/up/", free = "Loading/Steps/free/";
+  const perimorph::cases::Case input =
+      read(valid, {"Loading/Increments=6", up + "Increments=4", up + "Conditions={pull, wind}", up + "Values={4, 4}",
+                   free + "Increments=2", free + "Released={wind, pull}"});
+  const auto problem = perimorph::cases::make_problem<2>(input);
+  EXPECT_FALSE(problem.is_proportional);
+  const auto& pull = problem.displacements[1].value;
+  EXPECT_EQ(pull.at(4.), 4. * pull.rate);
+  EXPECT_EQ(pull.end, 4.);
+  EXPECT_GT(problem.displacements[0].value.end, 1e300);
+}
+
+TEST_F(CaseFile, MistakesOfWhatAStepReleasesAreNamed) {
+  const std::string up = "Loading/Steps/up/", free = "Loading/Steps/free/", last = "Loading/Steps/last/";
+  const std::vector<std::string> steps = {"Loading/Increments=5", up + "Increments=4",   up + "Conditions={pull, wind}",
+                                          up + "Values={4, 4}",   free + "Increments=1", free + "Released={pull}"};
+  const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
+      {{up + "Released={hold}"}, "/Loading/Steps/up/Released: found in the first step; allowed is it in later ones"},
+      {{free + "Released={pul}"},
+       "/Loading/Steps/free/Released: found \"pul\"; the conditions that hold or load the body"
+       " are \"guide\", \"hold\", \"pull\", \"wind\" - did you mean \"pull\"?"},
+      {{free + "Released={Body Force}"}, "/Loading/Steps/free/Released: found \"Body Force\"; the conditions that"},
+      {{free + "Released={pull, pull}"},
+       "/Loading/Steps/free/Released: found \"pull\" again; /Loading/Steps/free has released it"},
+      {{free + "Conditions={pull}", free + "Values={2}"},
+       "/Loading/Steps/free/Conditions: found \"pull\", which /Loading/Steps/free has released for good"},
+      {{last + "Increments=1", last + "Released={pull}"},
+       "/Loading/Steps/last/Released: found \"pull\" again; /Loading/Steps/free has released it"}};
+  for (const auto& [options, text] : mistakes) {
+    auto all = steps;
+    all.insert(all.end(), options.begin(), options.end());
+    EXPECT_THAT(error(valid, all), HasSubstr(text));
+  }
 }
 
 // --- cycles, and tables from files ---

@@ -188,6 +188,10 @@ class Restart(InThreeDimensions):
                       "Material/Fracture Energy": 2.0, "Material/Poisson's Ratio": 0.2},
         "measure": {"Loading/Control": "Measure", "Loading/Measure": {
             "Group": "upper", "Other Point": [1.0, 2.5, 1.0], "Direction": [0.0, 1.0, 0.0], "Rate": 0.1}},
+        "steps": {"Loading/Steps": {
+            "pull": {"Increments": 4, "Cycles": 2, "Conditions": ["pull down", "pull up"], "Values": [12.0, 12.0]},
+            "let go": {"Increments": 3, "Released": ["hold z"]},
+            "further": {"Increments": 3, "Conditions": ["pull down", "pull up"], "Values": [14.0, 14.0]}}},
     }
 
     def test_it_ends_with_the_same_bits(self):

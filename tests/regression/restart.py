@@ -257,6 +257,39 @@ class Cycles(GrowingCrack):
                       'here "/Loading/Steps/table/Tables/pull down: row 2 = 3, 16"', run.stderr)
 
 
+class Released(GrowingCrack):
+    """Pulled open against a clamp, which is then let go: the crack grows."""
+
+    MESH = plate_mesh(clamp=3)
+    PULL = lambda increments, value: {"Increments": increments, "Conditions": ["pull down", "pull up"], "Values": [value, value]}
+    CASE = changed(GrowingCrack.CASE, {
+        "Boundary Conditions/Displacements/clamp": {"Group": "clamp", "Component": "y"},
+        "Loading/Steps": {"pull": PULL(6, 14.0), "let go": {"Increments": 3, "Released": ["clamp"]}, "further": PULL(7, 17.0)}})
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stops in [(1, [4, 6, 7, 12]), (2, [6]), (4, [8])]:
+            self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+            whole = self.outcome()
+            broken = [int(row["broken_bonds"]) for row in whole[0]]
+            self.assertGreater(broken[6], broken[5])
+            for stop in stops:
+                with self.subTest(ranks=ranks, stop=stop):
+                    self.assert_continues(whole, stop, *EVERY, ranks=ranks)
+
+    def test_stopped_in_the_increment_in_which_it_lets_go_it_ends_with_the_same_bits(self):
+        self.write_case({"Loading/Breaking Fraction": 0.05})  # more solves, between which checkpoints are kept
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                whole = self.outcome()
+                self.run_until(6, *EVERY, ranks=ranks)
+                run = self.run_case("--quiet", *EVERY, "--restart", "--set", "Loading/Maximum Damage Iterations=25", ranks=ranks)
+                self.assertEqual(run.returncode, 3, run.stderr)
+                self.assertIn("checkpoint-000006_000020.h5", self.checkpoints())
+                self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
+                self.assert_same(self.outcome(), whole)
+
+
 class SeveralMaterials(GrowingCrack):
     """Two materials in a pattern, and interfaces weaker than both."""
 

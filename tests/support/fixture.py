@@ -85,9 +85,9 @@ def msh(groups, nodes, elements):
                      + section("Nodes", [" ".join(map(str, node)) for node in nodes]) + section("Elements", lines) + [""])
 
 
-def plate_mesh(columns=N, has_stiff=False):
+def plate_mesh(columns=N, has_stiff=False, clamp=None):
     """Block "body", the right edge "right", and the two left corners "lower" and "upper"; every third column in a block
-    "stiff" if there is one."""
+    "stiff" if there is one; the nodes of one column on the lower and the upper edge as "clamp" if that is said."""
     node = lambda i, j: j * (columns + 1) + i + 1
     nodes = [(node(i, j), i, j, 0) for j in range(N + 1) for i in range(columns + 1)]
     elements = [(15, 1, [node(0, 0)]), (15, 2, [node(0, N)])]
@@ -96,6 +96,9 @@ def plate_mesh(columns=N, has_stiff=False):
     elements += [(3, block(i, j), [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)])
                  for j in range(N) for i in range(columns)]
     names = ['0 1 "lower"', '0 2 "upper"', '1 3 "right"', '2 4 "body"'] + ['2 5 "stiff"'] * has_stiff
+    if clamp is not None:
+        names.append('0 6 "clamp"')
+        elements += [(15, 6, [node(clamp, j)]) for j in [0, N]]
     return msh(names, nodes, elements)
 
 

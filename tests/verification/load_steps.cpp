@@ -114,5 +114,93 @@ TEST(LoadSteps, SoftenedBondsUnloadToTheOriginTooAndTheEnergyCloses) {
   EXPECT_LT(std::abs(lost), 0.05 * last.energies.dissipated);
 }
 
+// ---- supports and loads that are let go ----
+
+template <int dim>
+double largest_reaction(const SpecimenBodyIn<dim>& test) {
+  double largest = 0.;
+  for (int n = 0; n < test.body.topology().dofs().n_owned_nodes(); ++n) {
+    largest = std::max(largest, test.body.reaction(n).norm());
+  }
+  return largest;
+}
+
+/// Pulled at its top in three increments, and then let go.
+template <int dim>
+void expect_that_it_comes_to_rest(const mesh::Mesh<dim>& whole, const base::Point<dim>& middle) {
+  SpecimenIn<dim> bar{whole, 3., 0.3};
+  bar.seeds = {Zone<dim>::ball(middle, 2., 5.)};
+  for (int c = 0; c < dim; ++c) bar.displacements.push_back({"hold", "bottom", c, {0., 0.}});
+  bar.displacements.push_back({"pull", "top", 1, {0.01, 0., nullptr, 3.}});
+  bar.is_proportional = false;
+  SpecimenBodyIn<dim> test(bar);
+  for (int k = 1; k <= 3; ++k) test.advance(k);
+  const auto pulled = test.body.energies();
+  const double reaction = largest_reaction(test);
+  ASSERT_NEAR(pulled.external_work, pulled.elastic, 1e-6 * pulled.elastic);
+
+  for (int k = 4; k <= 5; ++k) {
+    test.advance(k);
+    EXPECT_NEAR(test.body.energies().elastic, 0., 1e-9 * pulled.elastic);
+    EXPECT_NEAR(test.body.energies().external_work, 0., 1e-6 * pulled.elastic);
+    EXPECT_LT(largest_reaction(test), 1e-8 * reaction);
+  }
+}
+
+TEST(LoadSteps, ABodyWhoseSupportLetsGoComesToRestAndGivesItsEnergyBack) {
+  expect_that_it_comes_to_rest<2>(grid({10, 10, 10., 10., Point2::Zero(), 0.1}), {5., 5.});
+  expect_that_it_comes_to_rest<3>(brick({4, 8, 4, 0.1}), {2., 4., 2.});
+}
+
+TEST(LoadSteps, WithoutItsPropABodyIsAsIfThatHadNeverBeenThere) {
+  const auto whole = grid({10, 10, 10., 10., Point2::Zero(), 0.1});
+  const Point2 none = Point2::Zero();
+  Specimen alone = held(whole);
+  alone.seeds = {Zone<2>::ball({5., 5.}, 3., 6.)};
+  alone.tractions = {{"right", {Point2(-0.5, 0.2), none}}};
+  Specimen propped = alone;
+  propped.displacements.push_back({"prop", "top", 1, {0., 0., nullptr, 2.}});
+  propped.tractions.push_back({"top", {none, Point2(0.3, 0.), nullptr, 2.}});
+
+  SpecimenBody test(propped);
+  for (int k = 1; k <= 3; ++k) test.advance(k);
+  const auto u = test.body.displacement();
+  const auto expected = displacement_at(alone, 3.);
+  for (std::size_t dof = 0; dof < expected.size(); ++dof) EXPECT_NEAR(u[dof], expected[dof], 1e-8);
+}
+
+TEST(LoadSteps, ACrackGrowsWhenItsClampLetsGoAndNoEnergyComesFromNothing) {
+  const Amplitude pull({{0., 0.}, {4., 4.}});
+  Specimen specimen = cracked(nullptr, {});
+  specimen.seeds = {Zone<2>::ball({5., 6.}, 5., 5.5)};  // away from where forces act
+  auto& sets = specimen.whole.node_sets;
+  const auto corner_of = [&](double x, double y) {
+    std::vector<int> nodes;
+    for (int n = 0; n < specimen.whole.n_nodes(); ++n) {
+      if ((specimen.whole.coordinates[n] - Point2(x, y)).norm() < 1e-9) nodes.push_back(n);
+    }
+    return nodes;
+  };
+  sets["lower"] = corner_of(0., 0.);
+  sets["upper"] = corner_of(0., 12.);
+  sets["lower clamp"] = corner_of(3., 0.);
+  sets["upper clamp"] = corner_of(3., 12.);
+  specimen.displacements = {{"hold x", "right", 0, {0., 0.}},
+                            {"hold y", "right", 1, {0., 0.}},
+                            {"lower clamp", "lower clamp", 1, {0., 0., nullptr, 4.}},
+                            {"upper clamp", "upper clamp", 1, {0., 0., nullptr, 4.}},
+                            {"pull down", "lower", 1, {-0.03, 0., &pull}},
+                            {"pull up", "upper", 1, {0.03, 0., &pull}}};
+  SpecimenBody test(specimen);
+  State clamped{};
+  for (int k = 1; k <= 4; ++k) clamped = advance(test, k);
+  ASSERT_EQ(clamped.broken, 0);
+
+  const State released = advance(test, 5);
+  EXPECT_GT(released.broken, 20);
+  EXPECT_LT(released.energies.external_work, clamped.energies.external_work);
+  EXPECT_GT(released.energies.external_work, released.energies.elastic + released.energies.dissipated);
+}
+
 }  // namespace
 }  // namespace perimorph::tests

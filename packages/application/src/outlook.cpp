@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "first_break.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/cases/advice.hpp"
-#include "perimorph/fracture/first_break.hpp"
 #include "perimorph/input/mistakes.hpp"
 #include "perimorph/output/reactions.hpp"
 #include "perimorph/solvers/parameter_checks.hpp"
@@ -162,7 +162,7 @@ void describe_first_break(const base::Comm& comm, const cases::Case& input, cons
     return;
   }
   for (const auto& fallback : body.solver_fallbacks()) warn(log, input, {"/Solver: " + fallback});
-  const double load = fracture::load_of_first_break(comm, body);
+  const double load = load_of_first_break(comm, body);
   const double share = load / body.load_factor(), increment = increment_of(problem, body, share);
   if (std::isfinite(load)) {
     log->info("{}at load {:.4g}, in increment {:.0f} of {:.0f}{}",

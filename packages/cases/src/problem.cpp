@@ -27,10 +27,15 @@ class Amplitudes {
     return all_.back().get();
   }
 
+  template <class T>
+  discretization::Ramp<T> ramp(const std::string& condition, const T& rate, const T& constant) {
+    return {rate, constant, of(condition, rate), end_of(condition, steps_)};
+  }
+
   template <int dim>
   discretization::Ramp<base::Point<dim>> ramp(const std::string& condition, const std::vector<double>& rate,
                                               const std::vector<double>& constant) {
-    return {point<dim>(rate), point<dim>(constant), of(condition, point<dim>(rate))};
+    return ramp(condition, point<dim>(rate), point<dim>(constant));
   }
 
  private:
@@ -54,7 +59,7 @@ discretization::Loads<dim> make_loads(const Case& input, Amplitudes& amplitudes)
   }
   std::vector<discretization::SurfacePressure> pressures;
   for (const auto& p : conditions.pressures) {
-    pressures.push_back({p.group, {p.rate, p.constant, amplitudes.of(p.name, p.rate)}});
+    pressures.push_back({p.group, amplitudes.ramp(p.name, p.rate, p.constant)});
   }
   return {std::move(tractions),
           amplitudes.ramp<dim>("Body Force", conditions.body_force_rate, conditions.body_force_constant),
@@ -169,9 +174,14 @@ model::Problem<dim> make_problem(const Case& input) {
                               input.boundary_conditions.displacements,
                               make_loads<dim>(input, amplitudes),
                               input.loading.steps.empty() && input.boundary_conditions.are_proportional()};
-  for (auto& [name, set, component, value] : problem.displacements) value.amplitude = amplitudes.of(name, value.rate);
+  for (auto& [name, set, component, value] : problem.displacements) {
+    value = amplitudes.ramp(name, value.rate, value.constant);
+  }
   const auto is_common = [&](const auto& amplitude) { return *amplitude == *all.front(); };
-  if (input.boundary_conditions.are_proportional() && !all.empty() && std::all_of(all.begin(), all.end(), is_common)) {
+  const auto& steps = input.loading.steps;
+  const bool all_stay = std::all_of(steps.begin(), steps.end(), [](const Step& step) { return step.released.empty(); });
+  if (input.boundary_conditions.are_proportional() && all_stay && !all.empty() &&
+      std::all_of(all.begin(), all.end(), is_common)) {
     problem.is_proportional = true;
     problem.common_amplitude = all.front().get();
   }

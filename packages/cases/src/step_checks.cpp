@@ -18,18 +18,18 @@ namespace {
 
 using input::Values;
 
-/// A condition that steps may name, and whether its rate is not zero.
+/// A condition that steps may name: whether its rate is not zero, and whether it does anything.
 struct Condition {
   Values section;
-  bool has_rate;
+  bool has_rate, has_effect;
 };
 using Conditions = std::multimap<std::string, Condition>;  // by name; several may have one
 
-bool is_nonzero(const Values& section) {
-  const double* number = section.number("Rate");
+bool is_nonzero(const Values& section, const char* name) {
+  const double* number = section.number(name);
   if (number != nullptr) return *number != 0.;
-  const auto* numbers = section.numbers("Rate");
-  return numbers != nullptr && std::any_of(numbers->begin(), numbers->end(), [](double rate) { return rate != 0.; });
+  const auto* numbers = section.numbers(name);
+  return numbers != nullptr && std::any_of(numbers->begin(), numbers->end(), [](double value) { return value != 0.; });
 }
 
 std::string name_of(const Values& section) { return section.path().substr(section.path().rfind('/') + 1); }
@@ -37,36 +37,68 @@ std::string name_of(const Values& section) { return section.path().substr(sectio
 Conditions conditions_of(const Values& root) {
   const Values all = root.sub("Boundary Conditions");
   Conditions found;
-  const auto add = [&](const Values& one) { found.emplace(name_of(one), Condition{one, is_nonzero(one)}); };
-  for (const char* kind : {"Displacements", "Tractions", "Pressures"}) {
-    for (const auto& one : all.subs(kind)) add(one);
+  const auto add = [&](const Values& one, bool holds) {
+    const bool has_rate = is_nonzero(one, "Rate");
+    found.emplace(name_of(one), Condition{one, has_rate, holds || has_rate || is_nonzero(one, "Constant")});
+  };
+  for (const auto& one : all.subs("Displacements")) add(one, true);
+  for (const char* kind : {"Tractions", "Pressures"}) {
+    for (const auto& one : all.subs(kind)) add(one, false);
   }
-  for (const char* kind : {"Body Force", "Self-Weight"}) add(all.sub(kind));
+  for (const char* kind : {"Body Force", "Self-Weight"}) add(all.sub(kind), false);
   return found;
 }
 
 /// Why a step cannot name this condition; "" if it can.
-std::string trouble_with(const std::string& name, const Conditions& conditions) {
+/// @param what conditions there are to name
+template <class Allows>
+std::string trouble_with(const std::string& name, const Conditions& conditions, const char* what, Allows allows) {
   std::vector<std::string> allowed;
   for (const auto& [one, condition] : conditions) {
-    if (condition.has_rate) allowed.push_back(one);
+    if (allows(condition)) allowed.push_back(one);
   }
   if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
-    return fmt::format("found {}; the conditions with a \"Rate\" are {}{}", input::in_quotes(name),
-                       base::quoted_list(allowed), base::did_you_mean(name, allowed));
+    return fmt::format("found {}; the conditions {} are {}{}", input::in_quotes(name), what, base::quoted_list(allowed),
+                       base::did_you_mean(name, allowed));
   }
   if (conditions.count(name) == 1) return "";
   return fmt::format("found {}, which is the name of several conditions; allowed are names that only one has",
                      input::in_quotes(name));
 }
 
+/// Conditions that steps have let go, and in which step: the path.
+using Released = std::map<std::string, std::string>;
+
+void check_released(const Values& step, bool is_first, const Conditions& conditions, Released& released) {
+  const auto* names = step.texts("Released");
+  if (names == nullptr) return;
+  if (is_first) {
+    step.mistake("Released", "found in the first step; allowed is it in later ones: the conditions would never hold");
+  }
+  for (const auto& name : *names) {
+    const auto trouble = trouble_with(name, conditions, "that hold or load the body",
+                                      [](const Condition& condition) { return condition.has_effect; });
+    if (!trouble.empty()) step.mistake("Released", trouble);
+    const auto [first, is_new] = released.emplace(name, step.path());
+    if (is_new) continue;
+    step.mistake("Released", fmt::format("found {} again; {} has released it", input::in_quotes(name), first->second));
+  }
+}
+
 /// All that a step names, and each once.
-std::set<std::string> check_names(const Values& step, const Conditions& conditions) {
+std::set<std::string> check_names(const Values& step, const Conditions& conditions, const Released& released) {
   std::set<std::string> seen;
+  const auto trouble_of = [&](const std::string& name) {
+    if (!seen.insert(name).second) return fmt::format("found {} twice; allowed is each once", input::in_quotes(name));
+    const auto ended = released.find(name);
+    if (ended != released.end()) {
+      return fmt::format("found {}, which {} has released for good", input::in_quotes(name), ended->second);
+    }
+    return trouble_with(name, conditions, "with a \"Rate\"",
+                        [](const Condition& condition) { return condition.has_rate; });
+  };
   const auto check = [&](const Values& section, const std::string& where, const std::string& name) {
-    const bool is_new = seen.insert(name).second;
-    const auto trouble = is_new ? trouble_with(name, conditions)
-                                : fmt::format("found {} twice; allowed is each once", input::in_quotes(name));
+    const auto trouble = trouble_of(name);
     if (!trouble.empty()) section.mistake(where, trouble);
   };
   if (const auto* names = step.texts("Conditions")) {
@@ -78,8 +110,9 @@ std::set<std::string> check_names(const Values& step, const Conditions& conditio
 
 void check_values(const Values& step) {
   const bool has_names = step.given("Conditions"), has_values = step.given("Values");
-  if (!has_names && step.subs("Tables").empty()) {
-    step.mistake("Conditions", "missing; needed is a list of conditions such as {press}, or one in \"Tables\"");
+  if (!has_names && step.subs("Tables").empty() && !step.given("Released")) {
+    step.mistake("Conditions",
+                 "missing; needed is a list of conditions such as {press}, one in \"Tables\", or \"Released\"");
   }
   if (has_names && !has_values) step.mistake("Values", "missing; needed is one number for each of \"Conditions\"");
   if (has_values && !has_names) step.mistake("Values", "found without \"Conditions\", to which they would belong");
@@ -179,9 +212,11 @@ void check_steps(const Values& root, const std::string& folder) {
   const auto conditions = conditions_of(root);
   std::set<std::string> named;
   std::map<std::string, double> reached;
+  Released released;
   for (const auto& step : steps) {
     check_values(step);
-    named.merge(check_names(step, conditions));
+    check_released(step, step.path() == steps.front().path(), conditions, released);
+    named.merge(check_names(step, conditions, released));
     check_courses(step, folder, reached);
   }
   for (const auto& [name, condition] : conditions) {

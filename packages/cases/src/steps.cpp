@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "perimorph/base/errors.hpp"
 
@@ -78,6 +79,9 @@ void declare(const input::Section& section, Step& step) {
   section.optional("Cycles", step.cycles, 5, count(),
                    "If given: within so many cycles, conditions go to their values and back to what they were before, "
                    "half of the increments each way, and through their tables, which then end as they begin.");
+  section.optional("Released", step.released, {"prop"}, names("a list of conditions such as {prop}"),
+                   "Conditions that end when this step begins, and for good. What a displacement prescribed is free "
+                   "from the first increment on, and its reaction gone; of a load its Constant is gone, too.");
   section.entries("Tables", step.tables, declare,
                   "Conditions that follow a table from a file in this step, each a list with the condition's name.",
                   "The table of one condition.");
@@ -107,6 +111,15 @@ std::shared_ptr<const Amplitude> amplitude_of(const std::string& condition, cons
   Course course;
   for (const Step& step : steps) follow(step, condition, course);
   return std::make_shared<const Amplitude>(std::move(course).amplitude());
+}
+
+double end_of(const std::string& condition, const std::vector<Step>& steps) {
+  double begin = 0.;
+  for (const Step& step : steps) {
+    if (std::find(step.released.begin(), step.released.end(), condition) != step.released.end()) return begin;
+    begin += step.all_increments();
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace perimorph::cases

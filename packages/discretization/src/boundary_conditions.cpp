@@ -1,7 +1,9 @@
 #include "perimorph/discretization/boundary_conditions.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "perimorph/base/errors.hpp"
 
@@ -26,11 +28,20 @@ Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
                        condition.name, condition.component);
       for (const int node : mesh.node_sets.at(condition.node_set)) {
         const int dof = node * dim + condition.component;
+        const double end = fixed_[dof] ? std::max(values_[dof].end, condition.value.end) : condition.value.end;
         fixed_[dof] = 1;
         values_[dof] = condition.value;
+        values_[dof].end = end;
       }
+      if (std::isfinite(condition.value.end)) ends_.push_back(condition.value.end);
     }
   });
+}
+
+template <int dim>
+bool Dirichlet<dim>::apply_load(double load_factor) {
+  const double before = std::exchange(load_factor_, load_factor);
+  return std::any_of(ends_.begin(), ends_.end(), [&](double end) { return (before <= end) != (load_factor <= end); });
 }
 
 namespace {

@@ -84,10 +84,9 @@ void Body<dim>::prescribe(double value, bool has_begun) {
   prescribed_ = value;
   if (has_begun) return;
   if (!measure_) return apply_load(value);
-  const double last = state_.load_factor;
-  if (!problem_.is_proportional) return apply_load(last);
+  if (!problem_.is_proportional) return apply_load(state_.load_factor);
   const double scale = value / measured();
-  apply_load(std::isfinite(scale) && scale > 0. ? scale * last : 1.);
+  apply_load(std::isfinite(scale) ? scale * state_.load_factor : 1.);
 }
 
 template <int dim>
@@ -108,18 +107,20 @@ bool Body<dim>::grow() {
 
 template <int dim>
 void Body<dim>::rebuild(bool has_grown) {
+  const bool lets_go = dirichlet_.apply_load(state_.load_factor);
   {
     const auto timer = profile_.measure(Phase::adapt);
     const auto change = topology_.update(has_grown);
     state_.counts.dgfe_elements = topology_.n_discontinuous();
-    if (!change.models) return;
+    if (!change.models && !lets_go) return;
+    state_.counts.topologies += change.models ? 1 : 0;
     system_.follow_morphing();
     if (change.numbering) move_to_new_numbering();
   }
+  if (lets_go) equilibrium_.linear_solver().forget();  // multigrid knows nothing of unknowns that were none
   assemble();
-  if (measure_ && state_.counts.topologies > 0) renew_forces();  // from which the work goes on
+  if (measure_ && state_.counts.topologies > 1) renew_forces();  // from which the work goes on
   state_.break_calls_before_topology = state_.break_calls;
-  ++state_.counts.topologies;
 }
 
 template <int dim>
@@ -194,7 +195,8 @@ void Body<dim>::follow_measure() {
   }
   const double step = (prescribed_ - measured()) / rate;
   for (std::size_t dof = 0; dof < response.size(); ++dof) state_.displacement[dof] += step * response[dof];
-  if (problem_.is_proportional) state_.force_scale *= std::min(1., 1. + step / state_.load_factor);
+  const double share = 1. + step / state_.load_factor;
+  if (problem_.is_proportional && share > 0. && share < 1.) state_.force_scale *= share;
   state_.load_factor += step;
   state_.load_step += step;
   work_.load_changes(state_.load_step);
@@ -205,7 +207,7 @@ void Body<dim>::follow_measure() {
 template <int dim>
 std::vector<double> Body<dim>::load_response() {
   auto response = state_.displacement;
-  if (problem_.is_proportional) {
+  if (problem_.is_proportional && state_.load_factor != 0.) {
     for (double& u : response) u /= state_.load_factor;
     return response;
   }
@@ -302,6 +304,7 @@ GlobalId Body<dim>::flag_damaged_elements() {
 template <int dim>
 void Body<dim>::restore(const discretization::SavedState<dim>& saved) {
   PERIMORPH_ASSERT(!topology_.is_built(), "the body has a topology already");
+  state_.load_factor = saved.load_factor;
   state_.flag_points = saved.flag_points;
   topology_.note_flags(saved.flag_points);
   const bool has_grown = grow();

@@ -67,6 +67,26 @@ TEST_P(BoundaryConditions, PrescribedValuesGrowWithTheLoadOnTheNodesOfTheirSetOn
   }
 }
 
+TEST_P(BoundaryConditions, WhatEndsIsPrescribedNoMoreUnlessSomethingElseHoldsIt) {
+  const double never = Ramp<double>{}.end;
+  discretization::Dirichlet<2> dirichlet(
+      *comm, mesh, {{"a", "left", 0, {0.1, 0., nullptr, 3.}}, {"b", "top", 0, {0.1, 0., nullptr, never}}});
+  EXPECT_FALSE(dirichlet.apply_load(3.));
+  for (int n = 0; n < mesh.n_nodes(); ++n) {
+    EXPECT_EQ(dirichlet.prescribes(n, 0), mesh.coordinates[n][0] == 0. || mesh.coordinates[n][1] == 2.);
+  }
+  EXPECT_TRUE(dirichlet.apply_load(4.));
+  EXPECT_FALSE(dirichlet.apply_load(5.));
+  for (int n = 0; n < mesh.n_nodes(); ++n) EXPECT_EQ(dirichlet.prescribes(n, 0), mesh.coordinates[n][1] == 2.);
+}
+
+TEST_P(BoundaryConditions, ALoadThatEndsIsGoneWithItsConstant) {
+  const discretization::Loads<2> loads({{"top", {Point2(0.5, -2.), Point2(0.25, 1.), nullptr, 2.}}},
+                                       {Point2::Zero(), Point2::Zero()});
+  EXPECT_NEAR(resultant(loads, dofs(false), 2.).y, -3. * 3., rounding);
+  EXPECT_EQ(resultant(loads, dofs(false), 2.5).y, 0.);
+}
+
 TEST_P(BoundaryConditions, ContradictoryDisplacementsOfACommonNodeAreTheUsersMistakeOnAllRanks) {
   const std::string error = error_of({{"pull", "right", 1, {0.1, 0.}}, {"hold", "top", 1, {0., 0.}}});
   EXPECT_THAT(error, AllOf(HasSubstr("\"pull\" and \"hold\" prescribe different values"), HasSubstr("the y component"),

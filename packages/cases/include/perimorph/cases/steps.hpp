@@ -17,9 +17,10 @@ struct Step {
   std::string name;
   int increments = 1;  ///< with cycles, of each
   std::vector<std::string> conditions;
-  std::vector<double> values;     ///< of each condition, by which its rate is multiplied, [-]
-  std::vector<LoadTable> tables;  ///< of other conditions
-  std::optional<int> cycles;      ///< so often to the values and back, and through the tables
+  std::vector<double> values;         ///< of each condition, by which its rate is multiplied, [-]
+  std::vector<LoadTable> tables;      ///< of other conditions
+  std::optional<int> cycles;          ///< so often to the values and back, and through the tables
+  std::vector<std::string> released;  ///< conditions that end where it begins
 
   double all_increments() const { return static_cast<double>(increments) * cycles.value_or(1); }
 };
@@ -40,5 +41,8 @@ std::string listing_of_tables(const std::vector<Step>& steps);
 /// step that names it, and held otherwise. Local.
 std::shared_ptr<const discretization::Amplitude> amplitude_of(const std::string& condition,
                                                               const std::vector<Step>& steps);
+
+/// The increment after which a condition is released; infinity if it never is. Local.
+double end_of(const std::string& condition, const std::vector<Step>& steps);
 
 }  // namespace perimorph::cases

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "perimorph/base/errors.hpp"
@@ -30,9 +31,11 @@ class Amplitude {
 template <class T>
 struct Ramp {
   T rate, constant;
-  const Amplitude* amplitude = nullptr;  ///< must outlive this
+  const Amplitude* amplitude = nullptr;                  ///< must outlive this
+  double end = std::numeric_limits<double>::infinity();  ///< load factor beyond which there is no value: 0
 
   T at(double load_factor) const {
+    if (load_factor > end) return T(0. * rate);
     return rate * (amplitude == nullptr ? load_factor : amplitude->at(load_factor)) + constant;
   }
 
@@ -42,6 +45,7 @@ struct Ramp {
     return step == 0. ? T(0. * rate) : T((at(load_factor) - at(load_factor - step)) / step);
   }
 
+  /// Whether both are the same while both hold.
   bool operator==(const Ramp& other) const {
     const bool are_both = amplitude != nullptr && other.amplitude != nullptr;
     return rate == other.rate && constant == other.constant &&

@@ -51,17 +51,23 @@ struct SelfWeight {
   double other_density = 0.;                     ///< of all other blocks
 };
 
-/// Prescribed displacements by node of the reference mesh: every node of the topology that stands on it obeys them.
+/// Prescribed displacements by node of the reference mesh: every node of the topology that stands on it obeys them, up
+/// to the load factor at which they end.
 template <int dim>
 class Dirichlet {
  public:
   /// @throws UserError if two conditions contradict each other on a node. Collective.
   Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions);
 
+  /// From now on this load factor holds; returns whether other components are prescribed than before, on any rank.
+  /// Local, with the same answer on all ranks.
+  bool apply_load(double load_factor);
+
+  /// Whether it does at the present load factor.
   /// @param reference_node local node of the reference mesh, here and below
   bool prescribes(int reference_node, int component) const {
     PERIMORPH_DEBUG_ASSERT(component >= 0 && component < dim, "component {}", component);
-    return fixed_[reference_node * dim + component];
+    return fixed_[reference_node * dim + component] && load_factor_ <= ramp(reference_node, component).end;
   }
   /// The displacement over the load factor, [length]; zero where none is prescribed.
   const Ramp<double>& ramp(int reference_node, int component) const {
@@ -71,6 +77,8 @@ class Dirichlet {
  private:
   std::vector<char> fixed_;
   std::vector<Ramp<double>> values_;
+  std::vector<double> ends_;  ///< of the conditions that end, load factors
+  double load_factor_ = 0.;
 };
 
 /// Forces of tractions, pressures and body forces on the nodes of the current topology, consistent with the shape

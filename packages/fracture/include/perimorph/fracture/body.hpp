@@ -45,7 +45,8 @@ class Body {
   /// @param value the load factor [-], or what is to be measured, [length] (model::Problem::prescribed_in)
   void prescribe(double value, bool has_begun = false);
 
-  /// Lets alpha, bonds, classes and DGFE follow the flag points and the damage, and renumbers; only if they changed.
+  /// Lets alpha, bonds, classes and DGFE follow the flag points and the damage, and supports that end let go;
+  /// renumbers.
   /// @throws UserError at the first call, if a pre-crack cuts through elements outside the peridynamic zone.
   void update_topology();
 

@@ -1,4 +1,4 @@
-#include "perimorph/fracture/first_break.hpp"
+#include "first_break.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,14 @@
 
 #include "perimorph/base/errors.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::application {
 
 namespace {
 
 /// The largest stretch over its limit among the bonds that may break or soften, of all ranks; 0 if none reaches the
 /// threshold. Collective.
 template <int dim>
-double largest_ratio(const base::Comm& comm, const Body<dim>& body, double factor, double threshold) {
+double largest_ratio(const base::Comm& comm, const fracture::Body<dim>& body, double factor, double threshold) {
   auto u = body.system().at_points().displacement;
   for (auto& one : u) one *= factor;
   const auto& topology = body.topology();
@@ -25,7 +25,7 @@ double largest_ratio(const base::Comm& comm, const Body<dim>& body, double facto
 }  // namespace
 
 template <int dim>
-double load_of_first_break(const base::Comm& comm, const Body<dim>& body) {
+double load_of_first_break(const base::Comm& comm, const fracture::Body<dim>& body) {
   const double limit = body.topology().bonds().materials().smallest_limit();
   PERIMORPH_ASSERT(limit > 0. && body.load_factor() != 0., "critical stretch {} at load factor {}", limit,
                    body.load_factor());
@@ -43,7 +43,7 @@ double load_of_first_break(const base::Comm& comm, const Body<dim>& body) {
   return factor * body.load_factor();
 }
 
-template double load_of_first_break(const base::Comm&, const Body<2>&);
-template double load_of_first_break(const base::Comm&, const Body<3>&);
+template double load_of_first_break(const base::Comm&, const fracture::Body<2>&);
+template double load_of_first_break(const base::Comm&, const fracture::Body<3>&);
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::application
