@@ -106,6 +106,15 @@ class WhatTheProgramSays(Preview):
         self.assertTrue((pulled[:, 1, 1] > pulled[:, 0, 1]).all())  # where they go at most, both up
         self.assertEqual(len(Drawn(data, 1).arrows(MOVED)), 0)
 
+    def test_what_a_stage_releases_is_not_there_any_more(self):
+        data = self.data({**STAGES, "Loading/Steps/let go/Released": ["press", "hold upper x"]})
+        rows = {row[0]: row[1:] for row in case_tables.conditions(data)}
+        self.assertEqual(rows["press"], ["right", "p", "0.5", "6.5", "released"])
+        self.assertEqual(rows["hold upper x"], ["upper", "u_x", "0", "0", "released"])
+        last = Drawn(data, 2)
+        self.assertEqual(len(last.arrows(FORCE)), 0)
+        self.assertIn("upper\n$u_{y}$ = 0.4", last.labels())
+
     def test_a_measure_leaves_the_load_factor_open(self):
         data = self.data(MEASURE)
         rows = {row[0]: row[1:] for row in case_tables.conditions(data)}

@@ -31,7 +31,7 @@ def value_of(kind, text):
 
 class Condition:
     """A prescribed displacement, traction, pressure or body force. values: before the first increment and at the end of each
-    stage, (stages + 1, 1 or dimensions); largest: in each stage. Where a measure decides on the load, values are those without it
+    stage, (stages + 1, 1 or dimensions); largest: in each stage; n_stages: before it is released. Where a measure decides on the load, values are those without it
     and at a load factor of 1."""
 
     def __init__(self, kind, name, entry, n_dimensions):
@@ -39,7 +39,7 @@ class Condition:
         self.component = entry.get("Component")
         n_values = 1 if kind in ("Displacements", "Pressures") else n_dimensions
         self.values, self.largest = (entry[key].reshape(-1, n_values) for key in ("Values", "Largest"))
-        self.n_dimensions = n_dimensions
+        self.n_stages, self.n_dimensions = entry["Stages"], n_dimensions
 
     @property
     def symbol(self):
@@ -57,8 +57,8 @@ class Condition:
         return self.kind == "Displacements" and not self.value(stage).any()
 
     def is_idle(self, stage):
-        """Whether it is a load that is zero all through a stage."""
-        return self.kind != "Displacements" and not self.value(stage).any()
+        """Whether it does nothing in a stage: it is released, or a load that is zero all through it."""
+        return stage >= self.n_stages or (self.kind != "Displacements" and not self.value(stage).any())
 
     def direction(self, stage):
         """Where it acts in a stage, of length 1; None for pressures, which follow the normal."""
@@ -71,6 +71,8 @@ class Condition:
 
     def text(self, stage, follows_measure):
         """Its value at the end of a stage, and the largest in it where that lies beyond both ends."""
+        if stage >= self.n_stages:
+            return "released"
         start, end, largest = self.values[stage], self.values[stage + 1], self.largest[stage]
         if not follows_measure:
             is_beyond = ((largest < numpy.minimum(start, end)) | (largest > numpy.maximum(start, end))).any()

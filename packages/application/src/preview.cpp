@@ -94,6 +94,10 @@ class Conditions {
     const auto factors = factors_of(name, loading_);
     one.set("Values", values_at(factors.at_ends, rate, constant));
     one.set("Largest", values_at(factors.largest, rate, constant));
+    const auto stages = stages_of(loading_);
+    const double end = cases::end_of(name, loading_.steps);
+    one.set("Stages", static_cast<int>(std::count_if(stages.begin(), stages.end(),
+                                                     [&](const Stage& stage) { return stage.first <= end; })));
     return one;
   }
 
