@@ -26,7 +26,7 @@ import case_tables
 from case_data import CaseData
 from case_drawing import CRACK, MEASURED, Drawing, draw_body_and_conditions
 from case_look import Look
-from case_sheet import Section, new_figure, scale_of
+from case_sheet import Section, Tables, new_figure, scale_of
 from case_symbols import FORCE, MOVED, SUPPORT
 
 RUNS = pathlib.Path(sys.argv.pop(1))
@@ -114,6 +114,14 @@ class WhatTheProgramSays(Preview):
         last = Drawn(data, 2)
         self.assertEqual(len(last.arrows(FORCE)), 0)
         self.assertIn("upper\n$u_{y}$ = 0.4", last.labels())
+
+    def test_a_sheet_has_the_values_of_its_own_stage_where_there_are_many(self):
+        steps = {f"stage {k}": {"Increments": 1, "Conditions": ["pull up"], "Values": [float(k)]} for k in range(1, 8)}
+        data = self.data({"Loading": {"Increments": 7, "Steps": steps}, "Boundary Conditions/Displacements/pull down/Rate": 0.0})
+        self.assertEqual(len(case_tables.conditions(data)[0]), 3 + 7)
+        rows = Tables(data, 4).tables["Conditions"]
+        self.assertEqual(rows[0][3:], ["stage 5, to 5"])
+        self.assertEqual([row[3:] for row in rows if row[0] == "pull up"], [["1"]])
 
     def test_a_measure_leaves_the_load_factor_open(self):
         data = self.data(MEASURE)

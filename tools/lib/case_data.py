@@ -31,8 +31,8 @@ def value_of(kind, text):
 
 class Condition:
     """A prescribed displacement, traction, pressure or body force. values: before the first increment and at the end of each
-    stage, (stages + 1, 1 or dimensions); largest: in each stage; n_stages: before it is released. Where a measure decides on the load, values are those without it
-    and at a load factor of 1."""
+    stage, (stages + 1, 1 or dimensions); largest: in each stage; n_stages: before it is released. Where a measure decides on the
+    load, values are those without it and at a load factor of 1."""
 
     def __init__(self, kind, name, entry, n_dimensions):
         self.kind, self.name, self.group = kind, name, entry.get("Group")

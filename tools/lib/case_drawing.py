@@ -319,11 +319,13 @@ def label_cracks(drawing, labels):
 
 
 def draw_probes(drawing, labels):
-    data = drawing.data
-    for name, probe in data.table["Probes"].items():
-        points = drawing.look.flat(probe["Points"].reshape(-1, data.n_dimensions))
+    lines = {name: drawing.look.flat(probe["Points"].reshape(-1, drawing.data.n_dimensions))
+             for name, probe in drawing.data.table["Probes"].items()}
+    for name, points in lines.items():
         drawing.axes.plot(*points.T, "-x", color=PROBE, markersize=5, markeredgewidth=1.4, linewidth=0.9, zorder=ABOVE + 1)
-        labels.put(escaped(name), points.mean(axis=0), numpy.array([0.0, 1.0]), PROBE)
+        middle = points.mean(axis=0)
+        away = of_length_one(middle - numpy.concatenate(list(lines.values())).mean(axis=0))  # so that two have their names beside them
+        labels.put(escaped(name), middle, away if away.any() else numpy.array([0.0, 1.0]), PROBE)
 
 
 def place_of(data, place):

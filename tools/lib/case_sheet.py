@@ -190,6 +190,7 @@ class MeshDrawing:
 # --- Tables ---
 
 ROW, FONT = 0.185, 8.5  # inches, points
+MOST_STAGES = 5  # whose values stand beside each other
 
 
 def shown(cell):
@@ -206,8 +207,11 @@ def width_of(text):
 class Tables:
     """The tables of a case, one below the other."""
 
-    def __init__(self, data):
-        self.tables = {title: [[shown(cell) for cell in row] for row in rows] for title, rows in case_tables.tables(data).items()}
+    def __init__(self, data, stage):
+        tables = case_tables.tables(data)
+        if len(data.stages) > MOST_STAGES:
+            tables["Conditions"] = case_tables.in_stage(tables["Conditions"], stage)
+        self.tables = {title: [[shown(cell) for cell in row] for row in rows] for title, rows in tables.items()}
 
     def widths(self, rows):
         """Of each column, in inches, with the space between two."""
@@ -255,7 +259,7 @@ def sheet(data, stage, without=(), turn=0.0):
     body = Drawing(data, look, scale)
     alpha = Drawing(data, look, scale, (MARGIN[0], 0.6) if is_long(data, look) else (0.4, MARGIN[1]))  # below, or beside
     above = [(body, "Body and conditions" + stage_title(data, stage)), (alpha, "Morphing function at the start" + cut_at)]
-    below = [(MeshDrawing(data), "Mesh and blocks" + cut_at), (Tables(data), "")]
+    below = [(MeshDrawing(data), "Mesh and blocks" + cut_at), (Tables(data, stage), "")]
     rows = [[above[0]], [above[1]], below] if is_long(data, look) else [above, below]
     figure = new_figure(0.2 + max(sum(part.size[0] for part, _ in row) for row in rows), 0.55 + sum(map(height, rows)))
     figure.text(0.5, 1 - 0.28 / figure.get_size_inches()[1], escaped(data.title), fontsize=14, ha="center", va="center")
@@ -272,7 +276,7 @@ def sheet(data, stage, without=(), turn=0.0):
 
 
 def stage_title(data, stage):
-    return f", stage {data.stages[stage]}" if len(data.stages) > 1 else ""
+    return f": {data.stages[stage]}" if len(data.stages) > 1 else ""
 
 
 def picture(data, kind, stage=0, without=(), turn=0.0):

@@ -106,7 +106,7 @@ class Labels:
         """A line, in short pieces: the box around a slanting one would be large."""
         pieces = numpy.linspace(start, end, 25)
         for piece in zip(pieces, pieces[1:]):
-            self.keep_free(numpy.array(piece), margin=8.0)
+            self.keep_free(numpy.array(piece), margin=12.0)
 
     def cost(self, box, distance):
         """Of a place: what it hides, and how far it is."""

@@ -86,13 +86,18 @@ def stage_names(data):
 
 
 def condition_row(data, condition):
-    """Name, group, symbol, and the value at the end of each stage."""
+    """Name, group, symbol, and the values in each stage."""
     values = [condition.text(stage, data.follows_measure) for stage in range(len(stage_names(data)))]
     return [condition.name, condition.group or "all of the body", condition.symbol, *values]
 
 
 def conditions(data):
     return [["", "on", "", *stage_names(data)], *(condition_row(data, condition) for condition in data.conditions)]
+
+
+def in_stage(rows, stage):
+    """Of the rows of conditions, without the columns of other stages."""
+    return [row[:3] + row[3 + stage:4 + stage] for row in rows]
 
 
 def other_groups(data):
