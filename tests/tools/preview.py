@@ -326,6 +326,9 @@ class Pictures(Preview):
             ({}, ["--without", "pull upp"], 'did you mean "pull up"'),
             ({}, ["-o", "p.svg"], 'found the ending ".svg"; allowed is .png'),
             ({}, ["-o", "absent/p.png"], "no such directory"),
+            ({}, ["--turn", "30"], "--turn: only for three-dimensional cases"),
+            ({}, ["--serve", "--without", "pull up"], "--without: allowed only without --serve"),
+            ({}, ["--port", "0"], "--port: allowed only with --serve"),
             ({"Boundary Conditions/Displacements/pull up/Group": "uper"}, [], 'plate.xml:'),
             ({"Boundary Conditions/Displacements/pull up/Group": "uper"}, [], 'did you mean "upper"'),
         ]:

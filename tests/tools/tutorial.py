@@ -84,7 +84,7 @@ class Tutorial(InFolder):
     def test_runs_as_it_is_written(self):
         text = tutorial()
         commands = re.findall(r"^    (\S.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
-        self.assertEqual(len(commands), 6)
+        self.assertEqual(len(commands), 7)
         self.run_command(commands[0])
 
         geometry, = re.findall(r"```geo\n(.*?)```", text, re.DOTALL)
@@ -108,6 +108,7 @@ class Tutorial(InFolder):
         before, after = map(float, re.search(r"from\s+(\d+)\s+to\s+(\d+)\s+N", text).groups())
         self.assertAlmostEqual(max(forces) / before, 1, delta=0.02)
         self.assertLess(abs(forces[forces.index(max(forces)) + 1] - after), 0.05 * before)  # what a few bonds hold, more or less
+        self.assertTrue((self.folder / "bracket-preview.png").exists())
         self.assertTrue((self.folder / "results/bracket/history.png").exists())
         self.assertTrue((self.folder / "results/bracket/report.html").exists())
 
@@ -115,7 +116,7 @@ class Tutorial(InFolder):
         window, schema, setting = (span for span in spans if span.startswith(("gmsh ", "build/", "tools/", "--set ")))
         self.assert_gmshs_window_shows_the_part(window)
         self.assert_an_editor_takes_the_case(schema)
-        self.run_command(f"{commands[2]} {setting} --output results/whole")
+        self.run_command(f"{commands[3]} {setting} --output results/whole")
         other_rows, other_first = self.steps("results/whole")
         self.assertEqual(other_first, first)
         self.assertAlmostEqual(int(other_rows[-1]["dgfe_elements"]) / int(rows[-1]["dgfe_elements"]), 2, delta=0.2)

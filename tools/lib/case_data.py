@@ -161,6 +161,14 @@ class CaseData:
     # Groups
 
     @functools.cached_property
+    def node_sets(self):
+        return self.file.node_sets()
+
+    @functools.cached_property
+    def side_sets(self):
+        return self.file.side_sets()
+
+    @functools.cached_property
     def normals_of_nodes(self):
         """The sum over the sides of the boundary around each node, outward, each as long as its side is or its area."""
         sides, sums = self.boundary[0], numpy.zeros_like(self.places)
@@ -170,7 +178,7 @@ class CaseData:
 
     def nodes_of(self, group):
         """Of a group, each place once."""
-        return numpy.unique(self.first_here[self.file.node_sets().get(group, numpy.empty(0, int))])
+        return numpy.unique(self.first_here[self.node_sets.get(group, numpy.empty(0, int))])
 
     @functools.cached_property
     def _sides(self):
@@ -181,7 +189,7 @@ class CaseData:
     def sides_of(self, group):
         """The nodes of each side of a group; none if it has nodes only."""
         sides, begin = self._sides
-        return numpy.array([sides[begin[element] + side - 1] for element, side in self.file.side_sets().get(group, [])], int)
+        return numpy.array([sides[begin[element] + side - 1] for element, side in self.side_sets.get(group, [])], int)
 
     def where(self, group):
         """(places, outward normals of length 1) at which symbols of a group can be drawn: the middles of its sides, or its nodes."""

@@ -103,7 +103,7 @@ def in_stage(rows, stage):
 def other_groups(data):
     """Names that no condition has."""
     used = {condition.group for condition in data.conditions}
-    return [name for name in data.file.node_sets() if name not in used]
+    return [name for name in data.node_sets if name not in used]
 
 
 def points_text(data, numbers):

@@ -16,12 +16,15 @@ RULES = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inlin
 
 
 def add_options(parser, shown):
-    parser.add_argument("--port", type=int, default=8080, metavar="N", help="default 8080; 0 takes a free one")
-    parser.add_argument("--bind", default="localhost", metavar="ADDRESS",
+    parser.add_argument("--port", type=int, metavar="N", help="default 8080; 0 takes a free one")
+    parser.add_argument("--bind", metavar="ADDRESS",
                         help=f"listen elsewhere than on this machine only; whoever reaches ADDRESS sees the {shown}")
 
 
 def check_options(options):
+    """Those that are not given get their defaults."""
+    options.port = 8080 if options.port is None else options.port
+    options.bind = "localhost" if options.bind is None else options.bind
     if not 0 <= options.port <= 65535:
         fail(f"--port {options.port}: allowed is 0 to 65535")
 
