@@ -45,6 +45,16 @@ TEST_F(CaseFile, MistakesOfAMeasureAreNamed) {
   for (const auto& [options, text] : mistakes) EXPECT_THAT(error(valid, options), HasSubstr(text));
 }
 
+// --- thickness ---
+
+TEST_F(CaseFile, AThicknessIsForTwoDimensions) {
+  EXPECT_EQ(perimorph::cases::make_problem<2>(read(valid)).thickness, 1.);
+  EXPECT_EQ(perimorph::cases::make_problem<2>(read(valid, {"Mesh/Thickness=20"})).thickness, 20.);
+  EXPECT_THAT(error(valid, {"Mesh/Thickness=0"}), HasSubstr("/Mesh/Thickness: found \"0\"; allowed is a number > 0"));
+  EXPECT_THAT(error(valid_in_3d(), {"Mesh/Thickness=20"}),
+              HasSubstr("/Mesh/Thickness: found in three dimensions; allowed is it with \"Dimension\" = 2"));
+}
+
 // --- pressures ---
 
 TEST_F(CaseFile, APressureIsReadAndItsGroupChecked) {

@@ -56,6 +56,31 @@ class Runs(Plate):
         self.assertAlmostEqual(reaction(rows[1], "upper") / reaction(rows[0], "upper"), 2, places=5)
         self.assertLess(reaction(rows[2], "upper"), 3 * reaction(rows[0], "upper"))
 
+    def test_forces_and_energies_are_those_of_the_whole_thickness(self):
+        def outcome(*options):
+            run = self.run_case("--quiet", *options)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with netCDF4.Dataset(self.series()[-1]) as file:
+                names = text_of(file["name_elem_var"])
+                energies = [file[f"vals_elem_var{names.index('energy') + 1}eb{b + 1}"][-1].data for b in range(len(file.dimensions["num_el_blk"]))
+                            if f"vals_elem_var{names.index('energy') + 1}eb{b + 1}" in file.variables]
+            return [{name: value for name, value in row.items() if name != "wall_seconds"} for row in self.history()], numpy.concatenate(energies)
+
+        rows, energies = outcome()
+        of_one, energies_of_one = outcome(*settings("Mesh/Thickness=1"))
+        thick, energies_of_thick = outcome(*settings("Mesh/Thickness=2.5"))
+        self.assertEqual(rows, of_one)
+        numpy.testing.assert_array_equal(energies, energies_of_one)
+        numpy.testing.assert_allclose(energies_of_thick, 2.5 * energies, rtol=1e-14)
+        for row, thicker in zip(rows, thick, strict=True):
+            for name, value in row.items():
+                if name.startswith("reaction_") or name in ["elastic_energy", "dissipated_energy", "external_work", "jump_loss"]:
+                    # Ten digits are written; what is next to nothing is the difference of others.
+                    scale = float(rows[-1]["external_work"])
+                    self.assertAlmostEqual(float(thicker[name]), 2.5 * float(value), delta=1e-8 * scale, msg=name)
+                else:
+                    self.assertEqual(thicker[name], value, name)
+
     def test_increments_before_the_first_break_cost_no_solve(self):
         rates = [f"Boundary Conditions/Displacements/pull {way}/Rate={rate}" for way, rate in [("up", 0.02), ("down", -0.02)]]
         self.assertEqual(self.run_case(*settings(*rates, "Loading/Increments=20")).returncode, 0)

@@ -60,6 +60,7 @@ void check(const Resolved& resolved, const std::string& folder, Mistakes& mistak
   const input::Values root(resolved, mistakes);
   const int* dimension = root.count("Dimension");
   if (dimension == nullptr) return;  // what is wrong depends on it
+  check_mesh_source(root.sub("Mesh"), *dimension);
   check_materials(root, *dimension);
   check_peridynamics(root.sub("Peridynamics"));
   check_morphing(root.sub("Morphing"), *dimension);

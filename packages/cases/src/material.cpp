@@ -227,10 +227,9 @@ void declare_density(const input::Section& section, Solid& solid) {
 void declare(const input::Section& section, Material& material) {
   using namespace input;
   declare_stiffness(section, material);
-  section.required_choice(
-      "Elastic Model", material.elastic_model, elastic_models,
-      "In two dimensions what is assumed across the thickness, which is 1 [length]: thin plates are in plane stress, "
-      "long bodies in plane strain. In three dimensions nothing is: \"Three-Dimensional\".");
+  section.required_choice("Elastic Model", material.elastic_model, elastic_models,
+                          "In two dimensions what is assumed across the thickness: thin plates are in plane stress, "
+                          "long bodies in plane strain. In three dimensions nothing is: \"Three-Dimensional\".");
   declare_fracture(section, material);
   section.choice(
       "Calibration", material.calibration, calibrations,

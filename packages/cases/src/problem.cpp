@@ -196,6 +196,7 @@ model::Problem<dim> make_problem(const Case& input) {
   problem.interfaces = make_interfaces(input, problem.materials);
   problem.control = make_control<dim>(input.loading);
   problem.calibration = input.material.calibration;
+  problem.thickness = input.mesh.thickness.value_or(1.);
   for (const auto& seed : input.morphing.seeds) {
     if (seed.shape == SeedShape::automatic) {
       problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});

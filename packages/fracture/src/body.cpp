@@ -349,7 +349,8 @@ double Body<dim>::elastic_energy() const {
 
 template <int dim>
 Energies Body<dim>::energies() const {
-  return {elastic_energy(), state_.energies.dissipated, state_.energies.external_work};
+  const double t = problem_.thickness;
+  return {t * elastic_energy(), t * state_.energies.dissipated, t * state_.energies.external_work};
 }
 
 template <int dim>
@@ -363,7 +364,7 @@ base::Point<dim> Body<dim>::reaction(int node) const {
                    topology_.dofs().n_owned_nodes());
   base::Point<dim> force;
   for (int c = 0; c < dim; ++c) {
-    force[c] = system_.internal_force()[node * dim + c] - system_.loads()[node * dim + c];
+    force[c] = problem_.thickness * (system_.internal_force()[node * dim + c] - system_.loads()[node * dim + c]);
   }
   return force;
 }

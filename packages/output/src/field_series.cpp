@@ -48,7 +48,7 @@ std::vector<ElementVariable<dim>> element_variables() {
       {"damage",
        [](V v, int e) { return mean_over_points(v.model, e, [&](int p) { return v.model.bonds.damage(p); }); }},
       {"class", [](V v, int e) { return static_cast<double>(kind_of(v.body, e)); }},
-      {"energy", [](V v, int e) { return v.fields.energy[e]; }},
+      {"energy", [](V v, int e) { return v.body.problem().thickness * v.fields.energy[e]; }},
   };
   for (int c = 0; c < base::n_voigt<dim>; ++c) {
     variables.push_back({stress_names<dim>()[c], [c](V v, int e) { return v.fields.stress[e][c]; }});

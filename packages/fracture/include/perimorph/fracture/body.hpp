@@ -84,7 +84,7 @@ class Body {
   /// After a solve: nor does it depend on the order in which forces have been summed up.
   void renew_forces();
 
-  /// Over all ranks, [energy].
+  /// Over all ranks and the thickness, [energy].
   Energies energies() const;
 
   /// Where crack faces have passed furthest through each other, since there is no contact.
@@ -106,7 +106,7 @@ class Body {
   /// On all local degrees of freedom, [length].
   base::ConstField displacement() const { return base::field(state_.displacement); }
 
-  /// Force that supports exert on an owned node, (dim), [force].
+  /// Force that supports exert on an owned node, over the thickness, (dim), [force].
   base::Point<dim> reaction(int node) const;
 
  private:

@@ -51,9 +51,10 @@ struct Problem {
   std::vector<std::shared_ptr<const discretization::Amplitude>> amplitudes = {};  ///< that conditions refer to
   const discretization::Amplitude* common_amplitude = nullptr;  ///< of all loads that are proportional; null: none
   std::optional<MeasureControl<dim>> control = {};              ///< none: the load factor is the increment's number
+  double thickness = 1.;  ///< of a body in two dimensions, which forces and energies are multiplied by, [length]
 
-  /// What an increment prescribes: its load factor [-], or with control what is measured, [length].
-  double prescribed_in(int increment) const { return control ? control->value.at(increment) : increment; }
+  /// What an increment prescribes, or a part of one: its load factor [-], or with control what is measured, [length].
+  double prescribed_in(double increment) const { return control ? control->value.at(increment) : increment; }
 
   /// What proportional loads are proportional to, [-].
   double scale_at(double load_factor) const {
