@@ -18,7 +18,7 @@ import unittest
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import ENDLESS, EVERY, INCREMENTS, N, GrowingCrack, changed, plate_mesh
+from fixture import ENDLESS, EVERY, INCREMENTS, N, GrowingCrack, changed, plate_mesh, settings
 
 
 class Continued(GrowingCrack):
@@ -288,6 +288,66 @@ class Released(GrowingCrack):
                 self.assertIn("checkpoint-000006_000020.h5", self.checkpoints())
                 self.run_until(INCREMENTS, *EVERY, "--restart", ranks=ranks)
                 self.assert_same(self.outcome(), whole)
+
+
+class Cut(GrowingCrack):
+    """Increments that break more than 25 bonds are taken back and repeated with half the load."""
+
+    MOST, LAST = 25, 6
+    CASE = changed(GrowingCrack.CASE, {
+        "Boundary Conditions/Displacements/pull down/Rate": -0.15, "Boundary Conditions/Displacements/pull up/Rate": 0.15,
+        "Loading/Increments": LAST, "Loading/Largest Break per Increment": MOST})
+
+    def whole(self, *options, ranks=1):
+        self.run_until(self.LAST, *EVERY, *options, ranks=ranks)
+        return self.outcome()
+
+    def test_few_bonds_break_in_each_and_all_of_the_load_is_reached(self):
+        rows = self.whole()[0]
+        loads = [0.0] + [float(row["load_factor"]) for row in rows]
+        broken = [0] + [int(row["broken_bonds"]) for row in rows]
+        self.assertEqual([int(row["increment"]) for row in rows], list(range(1, len(rows) + 1)))
+        self.assertGreater(len(rows), self.LAST)
+        self.assertEqual(loads[-1], self.LAST)
+        self.assertGreater(broken[-1], 150)
+        steps = numpy.diff(loads)
+        self.assertTrue(set(steps) <= {0.5**n for n in range(9)})
+        self.assertEqual(set(range(1, self.LAST + 1)) - set(loads), set())  # whole increments are among them
+        for step, newly in zip(steps, numpy.diff(broken)):
+            self.assertTrue(newly <= self.MOST or step == 0.5**8, (step, newly))
+        log = (self.output / "run.log").read_text()
+        self.assertIn("cut              step ", log)
+
+        uncut = self.folder / "uncut"
+        self.output = uncut
+        self.write_case({"Loading/Largest Break per Increment": None})
+        self.run_until(self.LAST)
+        self.assertLess(float(rows[-1]["jump_loss"]), float(self.rows()[-1]["jump_loss"]))
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stop in [(1, 3), (1, 4), (2, 4), (4, 5)]:
+            whole = self.whole(ranks=ranks)
+            with self.subTest(ranks=ranks, stop=stop):
+                self.assert_continues(whole, stop, *EVERY, ranks=ranks, end=self.LAST)
+
+    def test_ended_between_two_parts_of_an_increment_it_ends_with_the_same_bits(self):
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                whole = self.whole(ranks=ranks)
+                solves = [int(row["linear_solves"]) for row in whole[0]]
+                run = self.run_case("--quiet", *EVERY, *settings(f"Loading/Maximum Damage Iterations={max(solves) - 1}"), ranks=ranks)
+                self.assertEqual(run.returncode, 3, run.stderr)
+                self.assertNotEqual(float(self.rows()[-1]["load_factor"]) % 1, 0)
+                self.run_until(self.LAST, *EVERY, "--restart", ranks=ranks)
+                self.assert_same(self.outcome(), whole)
+
+    def test_on_other_ranks_the_same_bonds_break(self):
+        alone = self.whole()[0]
+        self.run_until(4)
+        self.run_until(self.LAST, "--restart", ranks=2)
+        for row, other in zip(alone, self.rows(), strict=True):
+            for name in ["load_factor", "broken_bonds", "damaged_elements", "dgfe_elements"]:
+                self.assertEqual(row[name], other[name])
 
 
 class SeveralMaterials(GrowingCrack):

@@ -217,10 +217,11 @@ class GrowingCrack(Plate):
         self.assertGreater(float(outcome[0][-1]["broken_bonds"]), 150)
         return outcome
 
-    def assert_continues(self, whole, stop, *options, ranks=1):
-        """A run with checkpoints that stops after an increment and goes on ends as the whole one did."""
+    def assert_continues(self, whole, stop, *options, ranks=1, end=None):
+        """A run with checkpoints that stops after an increment and goes on ends as the whole one did. end: its increments, if
+        history.csv has others."""
         self.run_until(stop, *options, ranks=ranks)
-        self.run_until(len(whole[0]), *options, "--restart", ranks=ranks)
+        self.run_until(end or len(whole[0]), *options, "--restart", ranks=ranks)
         self.assert_same(self.outcome(), whole)
 
     def assert_same(self, outcome, other):

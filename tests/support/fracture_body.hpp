@@ -125,7 +125,7 @@ struct SpecimenBodyIn {
   int advance(double prescribed) {
     struct Count : fracture::LoopObserver<dim> {
       int solves = 0;
-      void solved(int, const fracture::Body<dim>&) override { ++solves; }
+      void solved(const fracture::LoopPosition&, const fracture::Body<dim>&) override { ++solves; }
     } count;
     fracture::run_increment(body, prescribed, unlimited, count, position);
     return count.solves;

@@ -195,11 +195,11 @@ class CrackWatch : public fracture::LoopObserver<2> {
   CrackWatch(std::function<double(const fracture::Body<2>&)> stress_intensity, double energy_of_growth)
       : stress_intensity_(std::move(stress_intensity)), energy_of_growth_(energy_of_growth) {}
 
-  void solved(int increment, const fracture::Body<2>& body) override {
+  void solved(const fracture::LoopPosition& position, const fracture::Body<2>& body) override {
     if (found.first == 0. && body.counts().broken_bonds > 0) found.first = last_;
     last_ = stress_intensity_(body);
-    if (increment != increment_) found.peak = std::max(found.peak, last_);
-    increment_ = increment;
+    if (position.increment + 1 != increment_) found.peak = std::max(found.peak, last_);
+    increment_ = position.increment + 1;
     has_grown_ = body.energies().dissipated > energy_of_growth_;
   }
   bool stop_requested(const fracture::LoopPosition&, fracture::Body<2>&) override { return has_grown_; }

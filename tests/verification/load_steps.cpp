@@ -114,6 +114,33 @@ TEST(LoadSteps, SoftenedBondsUnloadToTheOriginTooAndTheEnergyCloses) {
   EXPECT_LT(std::abs(lost), 0.05 * last.energies.dissipated);
 }
 
+// ---- increments that are cut ----
+
+TEST(LoadSteps, AnIncrementThatBreaksTooMuchIsHalvedUntilItDoesNot) {
+  const Specimen specimen = cracked(nullptr, {});
+  fracture::LoopLimits limits = unlimited;
+  limits.largest_break = 30;
+  fracture::LoopObserver<2> nobody;
+  fracture::LoopPosition position;
+  auto end = fracture::LoopEnd::cut;
+  int n_cuts = -1;
+  base::GlobalId broken = 0;
+  for (; end == fracture::LoopEnd::cut; ++n_cuts) {
+    SpecimenBody test(specimen);
+    end = fracture::run_increment(test.body, 8. * position.step.end(), limits, nobody, position);
+    broken = test.body.counts().broken_bonds;
+  }
+  ASSERT_EQ(end, fracture::LoopEnd::done);
+  EXPECT_GE(n_cuts, 1);
+  EXPECT_LE(broken, 30);
+  EXPECT_EQ(position.increment, 1);
+  EXPECT_EQ(position.step.begin, std::pow(0.5, n_cuts));
+
+  SpecimenBody direct(specimen);
+  direct.advance(8. * position.step.begin);
+  EXPECT_EQ(direct.body.counts().broken_bonds, broken);
+}
+
 // ---- supports and loads that are let go ----
 
 template <int dim>

@@ -159,6 +159,12 @@ def main_curve(history):
 # --- resolved.xml and run.log ---
 
 
+def planned_increments(parameters):
+    """How many increments a run is to have, by its parameters; 0 if nobody knows, since they may be cut."""
+    values = {path: value for path, value, _ in parameters}
+    return 0 if "/Loading/Largest Break per Increment" in values else int(values.get("/Loading/Increments", 0))
+
+
 def parameters_of(folder):
     """[(path, value, whether it is the default)] of resolved.xml; none if there is no such file yet."""
     file = os.path.join(folder, "resolved.xml")

@@ -173,29 +173,41 @@ class Run {
   /// @throws ComputationError if it was asked to stop, and as run_adaptive_loop does.
   bool is_done_on(const mesh::Mesh<dim>& mesh, output::Rebalancing<dim>& rebalancing,
                   fracture::LoopPosition& position) {
-    fracture::Body<dim> body(comm_, mesh, problem_, input_.numerical, profile_);
-    if (start_) {
-      body.restore(output::share_state(*comm_, *start_, mesh));
-    } else {  // what is refused is so before the results of an earlier run go
-      body.update_topology();
-      check_that_bonds_can_break(*comm_, input_, problem_, body);
-    }
-    start_.reset();
+    std::optional<fracture::Body<dim>> body;
+    start_on(mesh, body);
     auto results = open_results(mesh);
     output::RunObserver<dim> observer(comm_, folder_.lock(), *results, checkpoints_, rebalancing, requests_);
     try {
-      const auto end = run_adaptive_loop(body, limits(), observer, position);
-      if (end == fracture::LoopEnd::rebalance) start_ = output::gather_state(*comm_, body);
+      auto end = run_adaptive_loop(*body, limits(), observer, position);
+      for (; end == fracture::LoopEnd::cut; end = run_adaptive_loop(*body, limits(), observer, position)) {
+        console_.log->info("cut              step {} again, to load {:.6g}", position.increment + 1,
+                           position.step.end());
+        start_ = checkpoints_.start_of_increment();
+        start_on(mesh, body);
+      }
+      if (end == fracture::LoopEnd::rebalance) start_ = output::gather_state(*comm_, *body);
       if (end == fracture::LoopEnd::stopped) stop();
-      if (end == fracture::LoopEnd::done) results->summarize(body);
+      if (end == fracture::LoopEnd::done) results->summarize(*body);
       return end == fracture::LoopEnd::done;
     } catch (const base::ComputationError& error) {
       save_what_is_left([&] { checkpoints_.write(*results); });
       if (dynamic_cast<const fracture::UnfinishedIncrement*>(&error) != nullptr) {
-        save_what_is_left([&] { write_unfinished(position.increment + 1, body, *results); });
+        save_what_is_left([&] { write_unfinished(position.increment + 1, *body, *results); });
       }
       throw;
     }
+  }
+
+  /// A new body, in the state from which the run goes on.
+  void start_on(const mesh::Mesh<dim>& mesh, std::optional<fracture::Body<dim>>& body) {
+    body.emplace(comm_, mesh, problem_, input_.numerical, profile_);
+    if (start_) {
+      body->restore(output::share_state(*comm_, *start_, mesh));
+    } else {  // what is refused is so before the results of an earlier run go
+      body->update_topology();
+      check_that_bonds_can_break(*comm_, input_, problem_, *body);
+    }
+    start_.reset();
   }
 
   void write_unfinished(int increment, const fracture::Body<dim>& body, output::Results<dim>& results) const {
@@ -205,7 +217,9 @@ class Run {
 
   fracture::LoopLimits limits() const {
     const auto& loading = input_.loading;
-    return {loading.increments, loading.max_damage_iterations, loading.max_zone_growths};
+    fracture::LoopLimits limits{loading.increments, loading.max_damage_iterations, loading.max_zone_growths};
+    if (loading.largest_break) limits.largest_break = *loading.largest_break;
+    return limits;
   }
 
   /// The first time, removes what an earlier run has left: its checkpoints before its results if this run starts over,

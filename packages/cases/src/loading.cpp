@@ -47,6 +47,13 @@ void declare(const input::Section& section, Loading& loading, model::NumericalOp
                  "jumped over.");
   declare(section.section("Measure", "The displacement that increments prescribe with \"Control\" = \"Measure\"."),
           loading.measure);
+  section.optional(
+      "Largest Break per Increment", loading.largest_break, 100, count(),
+      "Bonds. If given, an increment in which more break is taken back and repeated with half its load, up to "
+      "eight times, and increments grow again where less than half as many break. Of a crack that jumps at "
+      "its load no increment is small enough. history.csv and the files of fields then count accepted "
+      "increments, of which there are more than \"Increments\", and the load factor says how far they have "
+      "come.");
   changeable.parameter("Maximum Damage Iterations", loading.max_damage_iterations, count(),
                        "Solutions within one increment, after which the run ends with status 3. An unstable crack "
                        "takes hundreds to thousands.");

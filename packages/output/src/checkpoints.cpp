@@ -14,7 +14,7 @@ using base::GlobalId;
 
 namespace {
 
-constexpr GlobalId current_format = 4;
+constexpr GlobalId current_format = 5;
 constexpr int solves_between = 20;  // states within an increment from which it goes on to the last bit
 constexpr const char *format_name = "format", *case_name = "case";
 
@@ -56,7 +56,8 @@ template <class DataSets, class Position, class Increments, class Mesh, class Co
 void describe_origin(DataSets& sets, Position& position, Increments& planned_increments, Mesh& mesh,
                      Costs& element_costs) {
   sets.integers("increment", position.increment, position.growths, position.damage_iterations, position.is_solved,
-                position.accuracy);
+                position.accuracy, position.broken_before);
+  sets.numbers("load_step", position.step.begin, position.step.size);
   sets.integers("planned_increments", planned_increments);
   sets.list("mesh", mesh);
   sets.list("element_costs", element_costs);
@@ -160,7 +161,14 @@ std::optional<io::Checkpoint> Checkpoints<dim>::load() {
   results_->seconds_before = results_->seconds;
   log_->info("restart          after increment {}, {} broken bonds{}", position_.increment, results_->totals.broken,
              solves_of_the_next(position_));
+  loaded_ = loaded;
   return loaded;
+}
+
+template <int dim>
+std::optional<io::Checkpoint> Checkpoints<dim>::start_of_increment() const {
+  if (loaded_ || position_.increment == 0) return loaded_;
+  return gather_state(*comm_, body_, owned_elements_);
 }
 
 template <int dim>
@@ -210,6 +218,7 @@ bool Checkpoints<dim>::is_worthwhile(const fracture::LoopPosition& position) con
 template <int dim>
 void Checkpoints<dim>::remember(const fracture::LoopPosition& position, const fracture::Body<dim>& body,
                                 const std::vector<double>& element_costs) {
+  loaded_.reset();
   element_costs_ = element_costs;
   body_ = body.save();
   owned_elements_ = owned_ids(body.mesh());
@@ -219,14 +228,15 @@ void Checkpoints<dim>::remember(const fracture::LoopPosition& position, const fr
 }
 
 template <int dim>
-void Checkpoints<dim>::accept(int increment, fracture::Body<dim>& body, Results<dim>& results,
+void Checkpoints<dim>::accept(const fracture::LoopPosition& position, fracture::Body<dim>& body, Results<dim>& results,
                               const std::vector<double>& element_costs, bool is_requested) {
+  const int increment = position.increment;
   PERIMORPH_ASSERT(increment > position_.increment, "increment {} after {}", increment, position_.increment);
-  remember({increment}, body, element_costs);
+  remember(position, body, element_costs);
   results_ = results.state();
   remembered_seconds_ = results_->seconds;
   const bool is_by_count = every_ > 0 && increment % every_ == 0;
-  const bool is_due = is_by_count || increment == last_increment_ || is_requested;
+  const bool is_due = is_by_count || position.step.begin >= last_increment_ || is_requested;
   if (is_time() || is_due) write(results);
   if (is_by_count) body.forget_solves();
 }
@@ -236,8 +246,8 @@ void Checkpoints<dim>::solved(const fracture::LoopPosition& position, fracture::
                               const std::vector<double>& element_costs, bool is_needed, bool is_requested) {
   const bool is_due = is_time() || is_requested;
   const bool is_exact = every_ > 0;
-  const bool is_kept =
-      is_exact ? position.damage_iterations % solves_between == 0 : (is_due || is_needed) && is_worthwhile(position);
+  const bool is_kept = !position.may_be_cut && (is_exact ? position.damage_iterations % solves_between == 0
+                                                         : (is_due || is_needed) && is_worthwhile(position));
   if (is_kept && !(id_of(position) == id_of(position_))) {
     remember(position, body, element_costs);
     remembered_seconds_ = results.state().seconds;

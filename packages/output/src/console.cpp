@@ -60,9 +60,10 @@ void Console::warn_of_overlap(const IncrementRecord& record) {
       record.overlap, fmt::join(record.overlap_place, ", "));
 }
 
-void Console::show_progress(int increment, const discretization::Counts& counts,
+void Console::show_progress(const fracture::LoopPosition& position, const discretization::Counts& counts,
                             const std::vector<std::string>& fallbacks) {
   constexpr double patience = 60.;  // seconds without a line
+  const int increment = position.increment + 1;
   const double elapsed = profile_.elapsed();
   for (; n_fallbacks_reported_ < fallbacks.size(); ++n_fallbacks_reported_) {
     clear_progress();
@@ -75,10 +76,12 @@ void Console::show_progress(int increment, const discretization::Counts& counts,
   }
   if (!options_.shows_progress) return;
   constexpr int width = 30;
-  const int done = width * (increment - 1) / last_increment_;
-  const double left = pace_.left(last_increment_ - increment + 1, elapsed - last_accepted_);
+  const auto [begin, size] = position.step;
+  const int done = static_cast<int>(width * begin / last_increment_);
+  const int n_left = static_cast<int>(std::ceil((last_increment_ - begin) / size));
+  const double left = pace_.left(n_left, elapsed - last_accepted_);
   fmt::print("\r\033[K[{:=>{}}{:>{}}] step {}/{}: {} solves, {} broken bonds{}", ">", done + 1, "", width - done,
-             increment, last_increment_, counts.linear_solves, counts.broken_bonds,
+             position.step.end(), last_increment_, counts.linear_solves, counts.broken_bonds,
              increment > 2 ? fmt::format(", at this pace {} left", base::duration(left)) : "");
   std::fflush(stdout);
 }

@@ -131,12 +131,13 @@ std::vector<double> Results<dim>::values_of(const IncrementRecord& record) const
 }
 
 template <int dim>
-void Results<dim>::accept(int increment, const Body<dim>& body) {
+void Results<dim>::accept(const fracture::LoopPosition& position, const Body<dim>& body) {
   const auto timer = profile_.measure(base::Phase::write);
+  const int increment = position.increment;
   const GlobalId newly_broken = count(increment, body.counts());
   const auto record = record_of(increment, body);
   const auto values = values_of(record);
-  if (increment % output_every_ == 0 || newly_broken > 0 || increment == last_increment_) {
+  if (increment % output_every_ == 0 || newly_broken > 0 || position.step.begin >= last_increment_) {
     fields_->write(increment, body, values);
   }
   if (exports_) exports_->accept(increment, body);

@@ -12,6 +12,7 @@ struct Loading {
   Control control = Control::load;
   MeasureControl measure;
   std::vector<Step> steps;            ///< none: all loads grow with the increment
+  std::optional<int> largest_break;   ///< of bonds in an increment, beyond which it is cut
   int max_damage_iterations = 20000;  ///< solves within one increment
   int max_zone_growths = 5000;        ///< changes of topology within one increment
 };

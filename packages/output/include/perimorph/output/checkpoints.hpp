@@ -54,18 +54,21 @@ class Checkpoints {
     if (!results_) results_ = results;
   }
 
+  /// The state after the last accepted increment, to which one that was cut goes back; none: the beginning. Collective.
+  std::optional<io::Checkpoint> start_of_increment() const;
+
   /// Remembers an accepted increment, and writes it if it is due. At every /Output/Checkpoint Every increments, the run
   /// itself goes on as one that starts from there would, to the last bit. Collective.
   /// @param element_costs by which the mesh is partitioned now, on rank 0
   /// @param is_requested it is due in any case; the same on all ranks
   /// @throws ComputationError if it is due and cannot be written.
-  void accept(int increment, fracture::Body<dim>& body, Results<dim>& results, const std::vector<double>& element_costs,
-              bool is_requested);
+  void accept(const fracture::LoopPosition& position, fracture::Body<dim>& body, Results<dim>& results,
+              const std::vector<double>& element_costs, bool is_requested);
 
   /// Within an increment, after a solve: writes the state if it is due by the clock or requested. With
   /// /Output/Checkpoint Every it is that of the last twentieth solve, after which the run goes on as one that starts
   /// from there would, to the last bit; otherwise that of this solve, if it has taken ten of them or some seconds to
-  /// get there. Collective.
+  /// get there. An increment that may be cut is not remembered. Collective.
   /// @param element_costs as for accept
   /// @param is_needed the state is about to be lost; the same on all ranks, as is_requested
   /// @throws ComputationError if it is due and cannot be written.
@@ -92,6 +95,7 @@ class Checkpoints {
   std::optional<ResultsState> results_;         ///< at the last accepted increment
   double remembered_seconds_ = 0.;              ///< of the run, at the position that is remembered, [s]
   std::vector<double> element_costs_;
+  std::optional<io::Checkpoint> loaded_;  ///< as long as nothing else is remembered
 
   double last_remembered_, last_written_;  ///< [s]
 

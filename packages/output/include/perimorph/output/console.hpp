@@ -3,6 +3,7 @@
 #include "perimorph/base/log.hpp"
 #include "perimorph/base/pace.hpp"
 #include "perimorph/base/profile.hpp"
+#include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/output/increment_record.hpp"
 
 namespace perimorph::output {
@@ -35,7 +36,8 @@ class Console {
 
   /// How far the current increment has come. Local.
   /// @param fallbacks of the solver so far; those that are new are reported
-  void show_progress(int increment, const discretization::Counts& counts, const std::vector<std::string>& fallbacks);
+  void show_progress(const fracture::LoopPosition& position, const discretization::Counts& counts,
+                     const std::vector<std::string>& fallbacks);
 
   /// Counts, memory, peak and last reactions, profile. Collective.
   void summarize(const base::Comm& comm, const discretization::Counts& counts, const Totals& totals,

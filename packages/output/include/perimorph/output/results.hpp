@@ -33,17 +33,18 @@ class Results {
   /// What it has come to; complete on rank 0 only. Local.
   ResultsState state() const;
 
-  /// Records an increment; fields too if they are due, a bond broke or it is the last. Collective.
+  /// Records the last accepted increment; fields too if they are due, a bond broke or it is the last of all.
+  /// Collective.
   /// @throws ComputationError if a file cannot be written, or somebody has removed or changed it.
-  void accept(int increment, const fracture::Body<dim>& body);
+  void accept(const fracture::LoopPosition& position, const fracture::Body<dim>& body);
 
   /// Writes the fields of an increment that cannot be finished, beside the series of those that are accepted; returns
   /// the file. Collective. @throws as accept.
   std::string write_unfinished(int increment, const fracture::Body<dim>& body);
 
   /// What the current increment is at. Local.
-  void show_progress(int increment, const fracture::Body<dim>& body) {
-    console_.show_progress(increment, body.counts(), body.solver_fallbacks());
+  void show_progress(const fracture::LoopPosition& position, const fracture::Body<dim>& body) {
+    console_.show_progress(position, body.counts(), body.solver_fallbacks());
   }
 
   /// Waits until the disk has all files as they are. Collective. @throws ComputationError if it fails.

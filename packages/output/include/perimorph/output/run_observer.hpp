@@ -24,14 +24,16 @@ class RunObserver : public fracture::LoopObserver<dim> {
         requests_(requests) {}
 
   /// @throws base::ComputationError if the disk is full, or somebody has emptied the folder.
-  void accepted(int increment, fracture::Body<dim>& body) override {
+  void accepted(const fracture::LoopPosition& position, fracture::Body<dim>& body) override {
     base::on_all_ranks(*comm_, [&] {
       if (lock_ != nullptr) lock_->check();
     });
-    results_.accept(increment, body);
-    checkpoints_.accept(increment, body, results_, rebalancing_.element_costs(), requests_.take_checkpoint_request());
+    results_.accept(position, body);
+    checkpoints_.accept(position, body, results_, rebalancing_.element_costs(), requests_.take_checkpoint_request());
   }
-  void solved(int increment, const fracture::Body<dim>& body) override { results_.show_progress(increment, body); }
+  void solved(const fracture::LoopPosition& position, const fracture::Body<dim>& body) override {
+    results_.show_progress(position, body);
+  }
 
   /// @throws base::ComputationError if the disk is full.
   bool stop_requested(const fracture::LoopPosition& position, fracture::Body<dim>& body) override {
