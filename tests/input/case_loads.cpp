@@ -152,6 +152,15 @@ TEST_F(CaseFile, MistakesOfWhatAStepReleasesAreNamed) {
   }
 }
 
+TEST_F(CaseFile, IncrementsAreCutOnlyWhereSomethingBreaks) {
+  const std::string option = "Loading/Largest Break per Increment=40";
+  EXPECT_EQ(*read(valid, {option}).loading.largest_break, 40);
+  EXPECT_FALSE(read(valid).loading.largest_break.has_value());
+  EXPECT_THAT(
+      error(replaced(valid, R"xml(<Parameter name="Critical Stretch" type="double" value="0.05"/>)xml", ""), {option}),
+      HasSubstr("/Loading/Largest Break per Increment: found, but nothing breaks; allowed is it with"));
+}
+
 // --- cycles, and tables from files ---
 
 TEST_F(CaseFile, CyclesLeadToTheValuesAndBack) {

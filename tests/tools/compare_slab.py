@@ -19,7 +19,7 @@ PLANE_STRAIN = ["Material/Elastic Model=Plane Strain", "Material/Poisson's Ratio
                 "Morphing/Discontinuous Elements=On Damage", "Morphing/Stiffness in Peridynamic Zone=Kept"]
 COARSER = ["Peridynamics/Horizon=15", "Peridynamics/Characteristic Length=1.6"]
 SMALL = ["Morphing/Seeds/hole/Inner Radius=1e-9", "Morphing/Seeds/hole/Outer Radius=2e-9"]  # no element is in it
-NO_ZONE = {"plate_with_hole": [*SMALL, "Morphing/Seeds/hole/Center={61,31}"],
+NO_ZONE = {"plate_with_hole": [*SMALL, "Morphing/Seeds/hole/Center={61,31}", "Mesh/Thickness=3"],
            "plate_with_hole_3d": [*SMALL, "Morphing/Seeds/hole/Start={61,31,-100}", "Morphing/Seeds/hole/End={61,31,100}"]}
 
 

@@ -69,9 +69,12 @@ void declare(const input::Section& section, Loading& loading, model::NumericalOp
       "share of the reactions [-]. Only for bonds that soften; the rest softens in the next increment.");
 }
 
-void check_loading(const input::Values& section, int dimension, bool softens) {
+void check_loading(const input::Values& section, int dimension, bool softens, bool breaks) {
   check_measure_control(section, dimension);
   check_softening(section, softens);
+  if (breaks || !section.given("Largest Break per Increment")) return;
+  section.mistake("Largest Break per Increment",
+                  "found, but nothing breaks; allowed is it with a \"Critical Stretch\" or a \"Fracture Energy\"");
 }
 
 }  // namespace perimorph::cases

@@ -294,6 +294,12 @@ bool softens(const input::Values& root) {
   return std::any_of(all.begin(), all.end(), is_soft) || std::any_of(between.begin(), between.end(), is_soft);
 }
 
+bool breaks(const input::Values& root) {
+  const auto can_break = [](const auto& one) { return one.given("Critical Stretch") || one.given("Fracture Energy"); };
+  const auto all = solids(root), between = root.subs("Interfaces");
+  return std::any_of(all.begin(), all.end(), can_break) || std::any_of(between.begin(), between.end(), can_break);
+}
+
 bool has_dilatation(const input::Values& root) {
   const auto model = elastic_model_of(root);
   if (!model) return false;

@@ -20,6 +20,7 @@ struct Loading {
 void declare(const input::Section& section, Loading& loading, model::NumericalOptions& numerical);
 
 /// @param softens whether any bonds do
-void check_loading(const input::Values& section, int dimension, bool softens);
+/// @param breaks whether any bonds do
+void check_loading(const input::Values& section, int dimension, bool softens, bool breaks);
 
 }  // namespace perimorph::cases

@@ -59,6 +59,10 @@ void complete_materials(Teuchos::ParameterList& root);
 /// @param root of a case
 bool softens(const input::Values& root);
 
+/// Whether bonds of any material, or between any two, break.
+/// @param root of a case
+bool breaks(const input::Values& root);
+
 /// Whether the dilatation carries in any material what bonds alone cannot: for other Poisson's ratios than theirs.
 bool has_dilatation(const input::Values& root);
 
