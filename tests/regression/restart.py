@@ -330,6 +330,19 @@ class Cut(GrowingCrack):
             with self.subTest(ranks=ranks, stop=stop):
                 self.assert_continues(whole, stop, *EVERY, ranks=ranks, end=self.LAST)
 
+    def test_with_a_measure_or_stages_it_ends_with_the_same_bits(self):
+        turns = {"pull": {"Increments": 4, "Conditions": ["pull down", "pull up"], "Values": [4.5, 4.5]},
+                 "let go": {"Increments": 1, "Released": ["pull down"]},
+                 "again": {"Increments": 1, "Conditions": ["pull up"], "Values": [9.0]}}
+        measure = changed(PathFollowing.CASE, {})["Loading"]["Measure"]
+        for changes in [{"Loading/Control": "Measure", "Loading/Measure": {**measure, "Rate": 0.25}}, {"Loading/Steps": turns}]:
+            self.write_case(changes)
+            for ranks, stop in [(1, 4), (2, 5)]:
+                whole = self.whole(ranks=ranks)
+                self.assertGreater(len(whole[0]), self.LAST)
+                with self.subTest(ranks=ranks, changes=changes):
+                    self.assert_continues(whole, stop, *EVERY, ranks=ranks, end=self.LAST)
+
     def test_ended_between_two_parts_of_an_increment_it_ends_with_the_same_bits(self):
         for ranks in [1, 2]:
             with self.subTest(ranks=ranks):
