@@ -30,6 +30,7 @@ struct Setup {
   double poissons_ratio = 1. / 3.;
   double stiffer = 1.;  ///< by how much the elements of odd ids are, with a longer characteristic length; 1: all alike
   materials::BondLaw law = {};  ///< of all bonds
+  discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
 };
 
 /// Bonds that soften from a stretch of 0.01 and break at one of 0.36.
@@ -74,7 +75,7 @@ struct CoupledBody {
                  {setup.zones, setup.pre_cracks, bond_materials(setup), morphing::BlendingFunction::linear,
                   setup.whole_zone_discontinuous ? discretization::DiscontinuousElements::whole_zone
                                                  : discretization::DiscontinuousElements::on_damage,
-                  2., 4., 2, setup.kept}),
+                  2., 4., 2, setup.kept, setup.crack_faces}),
         dirichlet(*comm, mesh, setup.prescribed),
         elasticity(elasticities(setup), of_elements(setup), setup.policy) {
     topology.update(topology.grow({}));

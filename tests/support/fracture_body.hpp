@@ -46,6 +46,7 @@ struct SpecimenIn {
   std::map<std::string, int> material_of_block = {};   ///< 1: the first of the others
   std::optional<materials::Toughness> interface = {};  ///< between any two materials; none: perfect
   std::optional<model::MeasureControl<dim>> control = {};
+  discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
 };
 using Specimen = SpecimenIn<2>;
 
@@ -78,6 +79,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   problem.material_of_block = specimen.material_of_block;
   problem.interfaces = std::move(interfaces);
   problem.control = specimen.control;
+  problem.crack_faces = specimen.crack_faces;
   return problem;
 }
 

@@ -35,7 +35,7 @@ std::vector<Place> places(const Specimen& specimen, const Teuchos::RCP<const bas
 
 /// All ranks' answer, which must be that of each rank alone.
 std::vector<Place> places(const Specimen& specimen, double share = 0.8) {
-  const auto found = places(specimen, Tpetra::getDefaultComm(), share);
+  auto found = places(specimen, Tpetra::getDefaultComm(), share);
   const auto alone = places(specimen, Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)), share);
   EXPECT_EQ(found.size(), alone.size());
   for (std::size_t i = 0; i < std::min(found.size(), alone.size()); ++i) {

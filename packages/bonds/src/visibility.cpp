@@ -64,14 +64,15 @@ base::Point<dim> normal(const mesh::CrackFacet<dim>& facet) {
 }  // namespace
 
 template <int dim>
-Visibility<dim>::Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet>& pre_cracks)
+Visibility<dim>::Visibility(const mesh::Mesh<dim>& mesh, const std::vector<mesh::Side>& sides,
+                            const std::vector<Facet>& pre_cracks)
     : pre_cracks_(pre_cracks) {
   for (const auto& facet : pre_cracks_) {
     for (const auto& corner : facet) {
       PERIMORPH_ASSERT(corner.allFinite(), "one of {} facets of pre-cracks is nowhere", pre_cracks_.size());
     }
   }
-  for (const auto& side : mesh.boundary) {
+  for (const auto& side : sides) {
     const auto corners = mesh::corner_points(mesh, side);
     for (std::size_t k = dim - 1; k < corners.size(); ++k) {  // a fan: one segment in 2D, one or two triangles in 3D
       Facet facet;

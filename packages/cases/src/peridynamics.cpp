@@ -11,6 +11,9 @@ namespace {
 enum class Micromodulus { exponential };
 constexpr std::array<Choice<Micromodulus>, 1> micromoduli{{{"Exponential", Micromodulus::exponential}}};
 
+using discretization::CrackFaces;
+constexpr std::array<Choice<CrackFaces>, 2> crack_faces{{{"Free", CrackFaces::free}, {"Contact", CrackFaces::contact}}};
+
 }  // namespace
 
 void declare(const input::Section& section, Peridynamics& peridynamics, model::NumericalOptions& numerical) {
@@ -28,6 +31,12 @@ void declare(const input::Section& section, Peridynamics& peridynamics, model::N
       "l [length] in the micromodulus, below the horizon. A third of the element size is a good choice; with a fifth, "
       "as in WHL19, cracks are held up between elements, by 30 %. From a ninth of the horizon on, the horizon cuts the "
       "micromodulus off: the body is too soft and the fracture energy falls short.");
+  section.choice(
+      "Crack Faces", peridynamics.crack_faces, crack_faces,
+      "What happens where a crack closes. \"Free\": its faces pass through each other (overlap in "
+      "history.csv). \"Contact\": they press on each other and slide without friction, which holds for small "
+      "sliding, and for pre-cracks and slits without width where the body is peridynamic on both sides: put "
+      "seeds along them.");
   section.parameter(
       "Points per Direction", numerical.points_per_direction, either(2, 3),
       "Gauss points of a quadrilateral or hexahedron along each of its directions [-]: the material points that bonds "

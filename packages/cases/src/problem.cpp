@@ -117,10 +117,10 @@ materials::Toughness toughness_of(const std::string& path, const Fracture& fract
 
 template <int dim>
 materials::Material<dim> make_material(const Case& input, const Solid& solid, const std::string& path) {
-  const auto& [horizon, length] = input.peridynamics;
-  auto material =
-      materials::elastic_material<dim>(input.material.elastic_model, solid.youngs_modulus, solid.poissons_ratio,
-                                       solid.characteristic_length.value_or(length), horizon);
+  const auto& peridynamics = input.peridynamics;
+  auto material = materials::elastic_material<dim>(
+      input.material.elastic_model, solid.youngs_modulus, solid.poissons_ratio,
+      solid.characteristic_length.value_or(peridynamics.characteristic_length), peridynamics.horizon);
   material.name = solid.name;
   material.toughness =
       toughness_of(input.file + ": " + path, solid, material, material,
@@ -197,6 +197,7 @@ model::Problem<dim> make_problem(const Case& input) {
   problem.control = make_control<dim>(input.loading);
   problem.calibration = input.material.calibration;
   problem.thickness = input.mesh.thickness.value_or(1.);
+  problem.crack_faces = input.peridynamics.crack_faces;
   for (const auto& seed : input.morphing.seeds) {
     if (seed.shape == SeedShape::automatic) {
       problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});

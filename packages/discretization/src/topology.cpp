@@ -46,12 +46,16 @@ Topology<dim>::Topology(const Teuchos::RCP<const base::Comm>& comm, const mesh::
       points_(mesh, options_.points_per_direction),
       alpha_(mesh, points_, options_.blending_function),
       bonds_(mesh, points_, mesh::active_elements(mesh), options_.materials, options_.pre_cracks, options_.stiffness),
-      element_exchange_(element_exchange(*comm, mesh)),
+      element_exchange_(discretization::element_exchange(*comm, mesh)),
       corner_exchange_(corner_exchange(*comm, mesh)),
       cut_by_pre_crack_(find_cut_elements<dim>(mesh, points_, options_.pre_cracks)),
       classes_(mesh.n_elements(), ElementClass::fe),
       discontinuous_(mesh.n_elements(), 0),
       flagged_(mesh.n_owned_elements, 0) {
+  if (options_.crack_faces == CrackFaces::contact) {
+    bonds_across_faces_ = bonds::bonds_across_faces<dim>(mesh, points_, mesh::active_elements(mesh),
+                                                         options_.materials.horizon(), options_.pre_cracks);
+  }
   PERIMORPH_ASSERT(options_.growth_inner_radius > 0. && options_.growth_outer_radius > options_.growth_inner_radius,
                    "zones grow to {} and fall to zero at {}", options_.growth_inner_radius,
                    options_.growth_outer_radius);

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "perimorph/operators/bond_forces.hpp"
-#include "perimorph/operators/stiffness_matrix.hpp"
+#include "point_springs.hpp"
 
 namespace perimorph::operators {
 
@@ -82,27 +82,32 @@ void BondForces<dim>::add_to(StiffnessMatrix<dim>& matrix) const {
 template <int dim>
 void BondForces<dim>::take(const bonds::BondChange& change, StiffnessMatrix<dim>& matrix,
                            std::vector<int>& changed) const {
-  const auto& bonds = model_.bonds;
-  const auto lost = losses(model_, change);
+  std::vector<PointSpring<dim>> springs;
+  for (const auto& [id, loss] : losses(model_, change)) {
+    const auto bond = model_.bonds.bond(id);
+    if (!matrix.selects(bond.xi)) continue;
+    springs.push_back(
+        {{bond.first_element, bond.second_element}, bond.first_end, bond.second_end, -spring_in(matrix, bond, loss)});
+  }
+  add_springs(model_, springs, matrix, changed);
+}
+
+template <int dim>
+void add_springs(const CoupledModel<dim>& model, const std::vector<PointSpring<dim>>& springs,
+                 StiffnessMatrix<dim>& matrix, std::vector<int>& changed) {
   std::array<Block<dim>, elements::max_points> at_first, at_second;
   std::vector<Block<dim>> between;
-  for (auto next = lost.begin(); next != lost.end();) {
-    const int p = bonds.pair_of(next->first);
-    const auto& pair = bonds.pair(p);
-    const int n_first = model_.points.count(pair.first), n_second = model_.points.count(pair.second);
-    between.clear();
+  for (auto next = springs.begin(); next != springs.end();) {
+    const auto pair = next->pair;
+    const int n_first = model.points.count(pair.first), n_second = model.points.count(pair.second);
+    between.assign(static_cast<std::size_t>(n_first) * n_second, Block<dim>::Zero());
     std::fill_n(at_first.begin(), n_first, Block<dim>::Zero());
     std::fill_n(at_second.begin(), n_second, Block<dim>::Zero());
-    for (; next != lost.end() && next->first < bonds.first_bond(p + 1); ++next) {
-      const auto bond = bonds.bond(p, next->first);
-      if (!matrix.selects(bond.xi)) continue;
-      if (between.empty()) between.assign(static_cast<std::size_t>(n_first) * n_second, Block<dim>::Zero());
-      const Block<dim> spring = spring_in(matrix, bond, next->second);
-      between[bond.first_end * n_second + bond.second_end] = -spring;
-      at_first[bond.first_end] -= spring;
-      at_second[bond.second_end] -= spring;
+    for (; next != springs.end() && next->pair == pair; ++next) {
+      between[next->first_end * n_second + next->second_end] += next->stiffness;
+      at_first[next->first_end] += next->stiffness;
+      at_second[next->second_end] += next->stiffness;
     }
-    if (between.empty()) continue;
     matrix.add_between(pair, between);
     matrix.add_at_points(pair.first, at_first.data());
     matrix.add_at_points(pair.second, at_second.data());
@@ -110,6 +115,10 @@ void BondForces<dim>::take(const bonds::BondChange& change, StiffnessMatrix<dim>
   }
 }
 
+template void add_springs<2>(const CoupledModel<2>&, const std::vector<PointSpring<2>>&, StiffnessMatrix<2>&,
+                             std::vector<int>&);
+template void add_springs<3>(const CoupledModel<3>&, const std::vector<PointSpring<3>>&, StiffnessMatrix<3>&,
+                             std::vector<int>&);
 template void BondForces<2>::couple(const StiffnessMatrix<2>&, Couplings<2>&) const;
 template void BondForces<2>::add_to(StiffnessMatrix<2>&) const;
 template void BondForces<2>::take(const bonds::BondChange&, StiffnessMatrix<2>&, std::vector<int>&) const;

@@ -2,31 +2,18 @@
 
 #include <algorithm>
 
+#include "at_points.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::operators {
 
-using base::Point;
-
 namespace {
-
-/// Spreads a force at a point of an element to the owned nodes among its corners.
-template <int dim>
-void spread(const CoupledModel<dim>& model, int element, int q, const Point<dim>& at_point,
-            std::vector<double>& force) {
-  const int* nodes = model.dofs.nodes_of(element);
-  const auto& shape = model.points.shape(element, q);
-  for (int k = 0; k < model.mesh.n_corners(element); ++k) {
-    if (nodes[k] >= model.dofs.n_owned_nodes()) continue;
-    for (int c = 0; c < dim; ++c) force[nodes[k] * dim + c] += shape[k] * at_point[c];
-  }
-}
 
 template <int dim>
 void subtract(const CoupledModel<dim>& model, const bonds::Bond<dim>& bond, const BondSpring<dim>& spring,
               std::vector<double>& force) {
-  spread<dim>(model, bond.first_element, bond.first_end, spring.pull(), force);
-  spread<dim>(model, bond.second_element, bond.second_end, -spring.pull(), force);
+  spread<dim>(model, bond.first_element, bond.first_end, spring.pull(), base::field(force));
+  spread<dim>(model, bond.second_element, bond.second_end, -spring.pull(), base::field(force));
 }
 
 /// What a bond releases over its loss of stiffness, in units of 1/2 s^2, s being its stretch, [energy]: k |xi|^4, and

@@ -41,7 +41,7 @@ template <int dim>
 void CoupledSystem<dim>::follow_morphing() {
   elasticity_.update(topology_.mesh(), topology_.points(), topology_.bonds(), topology_.alpha(), topology_.classes(),
                      topology_.discontinuous());
-  if (elasticity_.has_several_materials()) topology_.share(elasticity_.zero_flags());
+  if (elasticity_.has_several_materials()) topology_.element_exchange().update(elasticity_.zero_flags());
 }
 
 template <int dim>
@@ -49,6 +49,10 @@ void CoupledSystem<dim>::make_terms(const Supports<dim>& supports) {
   anchors_ = Teuchos::rcp(new Anchors<dim>(supports.anchors));
   bond_forces_ = Teuchos::rcp(new BondForces<dim>(model()));
   terms_ = {Teuchos::rcp(new LocalForces<dim>(model())), bond_forces_, anchors_};
+  if (topology_.crack_faces() == discretization::CrackFaces::contact) {
+    contact_ = Teuchos::rcp(new ContactForces<dim>(model(), topology_));
+    terms_.push_back(contact_);
+  }
   load_terms_ = {Teuchos::rcp(new LoadForces<dim>(model(), load_data_))};
 }
 
@@ -112,7 +116,7 @@ std::vector<int> CoupledSystem<dim>::take(const bonds::BondChange& change) {
   std::vector<int> changed;
   if (matrix_) changed = matrix_->take(change);
   if (short_range_) changed = short_range_->take(change);
-  if (elasticity_.has_dilatation()) has_forces_ = false;
+  if (breaks_change_more()) has_forces_ = false;
   if (has_forces_) subtract_lost_forces(model(), change, at_points_, internal_);
   return changed;
 }
@@ -131,7 +135,8 @@ void CoupledSystem<dim>::evaluate(base::ConstField u) {
                    "{} displacements for {} degrees of freedom", u.size(), space_->n_local());
   const auto timer = profile_.measure(Phase::residual);
   internal_ = sum_of_forces(terms_, u);
-  at_points_ = {displacements_at_points(model(), u), bond_forces_->dilatational_stretch()};
+  at_points_ = {displacements_at_points(model(), u), bond_forces_->dilatational_stretch(), {}};
+  if (!contact_.is_null()) at_points_.contacts = contact_->closed(u);
   loads_ = sum_of_forces(load_terms_, u);
   for (double& load : loads_) load = -load;
   has_forces_ = true;
@@ -179,10 +184,14 @@ void CoupledSystem<dim>::correct(base::Field u, const Vector& correction) {
 }
 
 template <int dim>
-void CoupledSystem<dim>::prepare_tangent(base::ConstField u) {
+std::vector<int> CoupledSystem<dim>::prepare_tangent(base::ConstField u) {
   PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) == space_->n_local(),
                    "{} displacements for {} degrees of freedom", u.size(), space_->n_local());
   for (const auto& term : terms_) term->prepare_tangent(u);
+  std::vector<int> changed;
+  if (matrix_) changed = matrix_->update_tangent();
+  if (short_range_) changed = short_range_->update_tangent();
+  return changed;
 }
 
 template <int dim>

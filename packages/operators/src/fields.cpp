@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "at_points.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/elements/strain.hpp"
 
@@ -29,16 +30,31 @@ void visit_local_part(const CoupledModel<dim>& model, int e, base::ConstField u,
   });
 }
 
-/// Calls visit(first end, second end, energy, stress) for each intact bond of a pair of elements, with the ends as
-/// numbers of points and the bond's share in each end's energy and stress times volume.
+/// Calls visit(bond, energy, stress) for each intact bond of a pair of elements, with its share in each end's energy
+/// and stress times volume.
 template <int dim, class Visit>
 void visit_bonds(const CoupledModel<dim>& model, int p, const PointFields<dim>& at_points, Visit visit) {
   model.bonds.for_each_bond(p, [&](const bonds::Bond<dim>& bond) {
     if (bond.is_broken) return;
     const BondSpring<dim> spring(model, bond, at_points);
     const base::Voigt<dim> stress = 0.5 * spring.tension * elements::squared<dim>(spring.xi);
-    visit(bond.first_point, bond.second_point, 0.5 * spring.energy(), stress);
+    visit(bond, 0.5 * spring.energy(), stress);
   });
+}
+
+/// Calls visit as visit_bonds() does, for each closed contact.
+template <int dim, class Visit>
+void visit_contacts(const PointFields<dim>& at_points, Visit visit) {
+  for (const auto& contact : at_points.contacts) {
+    const Point<dim>&g = contact.g, &xi = contact.bond.xi;
+    base::Voigt<dim> stress;
+    stress.template head<dim>() = g.cwiseProduct(xi);
+    for (int v = dim; v < base::n_voigt<dim>; ++v) {
+      const auto [i, j] = elements::shear_axes<dim>(v);
+      stress[v] = 0.5 * (g[i] * xi[j] + g[j] * xi[i]);
+    }
+    visit(contact.bond, 0.25 * contact.tension * contact.elongation, 0.5 * contact.tension * stress);
+  }
 }
 
 template <int dim>
@@ -53,17 +69,15 @@ void add_local_part(const CoupledModel<dim>& model, base::ConstField u, ElementF
 
 template <int dim>
 void add_bonds_part(const CoupledModel<dim>& model, const PointFields<dim>& at_points, ElementFields<dim>& fields) {
-  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
-    const auto [first, second] = model.bonds.pair(p);
-    const int ends[] = {first, second};
-    visit_bonds(model, p, at_points, [&](int, int, double energy, const base::Voigt<dim>& stress) {
-      for (const int e : ends) {
-        if (e >= model.mesh.n_owned_elements) continue;
-        fields.energy[e] += energy;
-        fields.stress[e] += stress;
-      }
-    });
-  }
+  const auto add = [&](const bonds::Bond<dim>& bond, double energy, const base::Voigt<dim>& stress) {
+    for (const int e : {bond.first_element, bond.second_element}) {
+      if (e >= model.mesh.n_owned_elements) continue;
+      fields.energy[e] += energy;
+      fields.stress[e] += stress;
+    }
+  };
+  for (int p = 0; p < model.bonds.n_pairs(); ++p) visit_bonds(model, p, at_points, add);
+  visit_contacts(at_points, add);
 }
 
 }  // namespace
@@ -75,13 +89,8 @@ std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, 
   std::vector<Point<dim>> at_points(model.points.size(), Point<dim>::Zero());
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (model.bonds.pairs_of(e).empty()) continue;
-    const int* nodes = model.dofs.nodes_of(e);
     for (int q = 0; q < model.points.count(e); ++q) {
-      const auto& shape = model.points.shape(e, q);
-      Point<dim>& value = at_points[model.points.first(e) + q];
-      for (int k = 0; k < model.mesh.n_corners(e); ++k) {
-        value += shape[k] * base::at_node<dim>(u, nodes[k]);
-      }
+      at_points[model.points.first(e) + q] = displacement_at(model, u, e, q);
     }
   }
   return at_points;
@@ -115,13 +124,13 @@ std::vector<base::Voigt<dim>> stress_at_points(const CoupledModel<dim>& model, i
                    "displacements at {} of {} points", at_points.displacement.size(), model.points.size());
   const int first = model.points.first(element), end = model.points.first(element + 1);
   std::vector<base::Voigt<dim>> stress(end - first, base::Voigt<dim>::Zero());
-  for (const int p : model.bonds.pairs_of(element)) {
-    visit_bonds(model, p, at_points, [&](int i, int j, double, const base::Voigt<dim>& bonds) {
-      for (const int point : {i, j}) {
-        if (point >= first && point < end) stress[point - first] += bonds / model.points.weight(point);
-      }
-    });
-  }
+  const auto add = [&](const bonds::Bond<dim>& bond, double, const base::Voigt<dim>& share) {
+    for (const int point : {bond.first_point, bond.second_point}) {
+      if (point >= first && point < end) stress[point - first] += share / model.points.weight(point);
+    }
+  };
+  for (const int p : model.bonds.pairs_of(element)) visit_bonds(model, p, at_points, add);
+  visit_contacts(at_points, add);
   visit_local_part(model, element, u,
                    [&](int q, const base::Voigt<dim>&, const base::Voigt<dim>& local, double) { stress[q] += local; });
   return stress;

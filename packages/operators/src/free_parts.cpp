@@ -1,5 +1,8 @@
 #include "perimorph/operators/free_parts.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -17,26 +20,43 @@ namespace {
 
 using base::GlobalId;
 
+/// A part of the body that loads act on and nothing holds.
+template <int dim>
+struct FreePart {
+  GlobalId n_nodes;         ///< of the present numbering
+  base::Point<dim> center;  ///< mean of its nodes in the reference mesh, [length]
+  base::Point<dim> load;    ///< resultant, in the directions in which no node is held, [force]
+};
+
+/// What holds nodes together beside elements: all unbroken bonds but some, and contacts.
+template <int dim>
+struct Ties {
+  const std::vector<ContactSpring<dim>>& contacts;
+  std::vector<bonds::BondId> failing;  ///< ascending
+};
+
 /// Local nodes that are held together, as far as this rank sees.
 template <int dim>
-base::DisjointSets joined_nodes(const CoupledModel<dim>& model, const std::vector<bonds::BondId>& failing) {
+base::DisjointSets joined_nodes(const CoupledModel<dim>& model, const Ties<dim>& ties) {
   base::DisjointSets joined(model.dofs.n_nodes());
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     for (int k = 1; k < model.mesh.n_corners(e); ++k) joined.join(model.dofs.nodes_of(e)[k], model.dofs.nodes_of(e)[0]);
   }
-  model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
-    if (bond.is_broken || std::binary_search(failing.begin(), failing.end(), bond.id)) return;
+  const auto join = [&](const bonds::Bond<dim>& bond) {
     joined.join(model.dofs.nodes_of(bond.first_element)[0], model.dofs.nodes_of(bond.second_element)[0]);
+  };
+  model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
+    if (!bond.is_broken && !std::binary_search(ties.failing.begin(), ties.failing.end(), bond.id)) join(bond);
   });
+  for (const auto& contact : ties.contacts) join(contact.bond);
   return joined;
 }
 
 /// For each local node the lowest global node of its part. Collective.
 template <int dim>
-std::vector<GlobalId> parts_of_nodes(const base::Comm& comm, const CoupledModel<dim>& model,
-                                     const std::vector<bonds::BondId>& failing) {
+std::vector<GlobalId> parts_of_nodes(const base::Comm& comm, const CoupledModel<dim>& model, const Ties<dim>& ties) {
   const auto& dofs = model.dofs;
-  base::DisjointSets joined = joined_nodes(model, failing);
+  base::DisjointSets joined = joined_nodes(model, ties);
   std::vector<GlobalId> part(dofs.n_nodes());
   for (int n = 0; n < dofs.n_nodes(); ++n) part[n] = dofs.global_node(n);
   Tpetra::Vector<double> owned(dofs.owned_dofs()), all(dofs.all_dofs());
@@ -100,16 +120,15 @@ std::map<GlobalId, Share<dim>> by_part(const std::vector<Share<dim>>& shares) {
   return parts;
 }
 
-}  // namespace
-
+/// By ascending number of their first node.
 template <int dim>
 std::vector<FreePart<dim>> free_parts(const base::Comm& comm, const CoupledModel<dim>& model,
                                       const discretization::Space<dim>& space, const std::vector<double>& loads,
-                                      const std::vector<bonds::BondId>& failing) {
+                                      const Ties<dim>& ties) {
   PERIMORPH_ASSERT(loads.size() == space.n_owned(), "{} loads for {} degrees of freedom", loads.size(),
                    space.n_owned());
   constexpr double felt = 1e-6;  // share of all loads; less is rounding
-  const auto part = parts_of_nodes(comm, model, failing);
+  const auto part = parts_of_nodes(comm, model, ties);
   std::vector<Share<dim>> own;
   for (int n = 0; n < model.dofs.n_owned_nodes(); ++n) {
     own.push_back(share_of(model, space, loads, n));
@@ -132,11 +151,32 @@ std::vector<FreePart<dim>> free_parts(const base::Comm& comm, const CoupledModel
   return free;
 }
 
-template std::vector<FreePart<2>> free_parts<2>(const base::Comm&, const CoupledModel<2>&,
-                                                const discretization::Space<2>&, const std::vector<double>&,
-                                                const std::vector<bonds::BondId>&);
-template std::vector<FreePart<3>> free_parts<3>(const base::Comm&, const CoupledModel<3>&,
-                                                const discretization::Space<3>&, const std::vector<double>&,
-                                                const std::vector<bonds::BondId>&);
+}  // namespace
+
+template <int dim>
+std::string what_is_free(const base::Comm& comm, const CoupledModel<dim>& model,
+                         const discretization::Space<dim>& space, const std::vector<double>& loads,
+                         const std::vector<ContactSpring<dim>>& contacts, const std::vector<bonds::BondId>& failing) {
+  const auto description_of = [&](const FreePart<dim>& part) {
+    return fmt::format("the part of {} of {} nodes around ({:.6g})", part.n_nodes, model.dofs.n_global_nodes(),
+                       fmt::join(part.center, ", "));
+  };
+  if (const auto free = free_parts<dim>(comm, model, space, loads, {contacts, {}}); !free.empty()) {
+    return fmt::format("no equilibrium exists: {} is free, and a load of ({:.6g}) acts on it", description_of(free[0]),
+                       fmt::join(free[0].load, ", "));
+  }
+  const auto free = free_parts<dim>(comm, model, space, loads, {contacts, failing});
+  if (free.empty()) return "";
+  return fmt::format(
+      "no equilibrium was found: only bonds beyond the critical stretch hold {} against a load of ({:.6g})",
+      description_of(free[0]), fmt::join(free[0].load, ", "));
+}
+
+template std::string what_is_free(const base::Comm&, const CoupledModel<2>&, const discretization::Space<2>&,
+                                  const std::vector<double>&, const std::vector<ContactSpring<2>>&,
+                                  const std::vector<bonds::BondId>&);
+template std::string what_is_free(const base::Comm&, const CoupledModel<3>&, const discretization::Space<3>&,
+                                  const std::vector<double>&, const std::vector<ContactSpring<3>>&,
+                                  const std::vector<bonds::BondId>&);
 
 }  // namespace perimorph::operators

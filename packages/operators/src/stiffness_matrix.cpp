@@ -229,6 +229,13 @@ std::vector<int> StiffnessMatrix<dim>::take(const bonds::BondChange& change) {
 }
 
 template <int dim>
+std::vector<int> StiffnessMatrix<dim>::update_tangent() {
+  std::vector<int> changed;
+  for (const auto& term : terms_) term->update_tangent(*this, changed);
+  return changed;
+}
+
+template <int dim>
 void StiffnessMatrix<dim>::add_diagonal(int owned_dof, double stiffness) {
   PERIMORPH_ASSERT(owned_dof >= 0 && owned_dof < model_.dofs.n_owned_nodes() * dim, "degree of freedom {}", owned_dof);
   const int row = owned_dof / dim, c = owned_dof % dim;

@@ -56,7 +56,8 @@ void Console::warn_of_overlap(const IncrementRecord& record) {
   if (has_warned_ || record.overlap <= of_horizon * horizon_) return;
   has_warned_ = true;
   options_.log->warn(
-      "warning: crack faces overlap, by {:.3g} at ({:.6g}): there is no contact; see overlap in history.csv",
+      "warning: crack faces overlap, by {:.3g} at ({:.6g}): see overlap in history.csv; /Peridynamics/Crack Faces says "
+      "where they press on each other",
       record.overlap, fmt::join(record.overlap_place, ", "));
 }
 

@@ -75,7 +75,7 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
     if (norms.residual > slow * last_residual) anchors.loosen();
     last_residual = norms.residual;
 
-    system.prepare_tangent(u);
+    solver_.note_change(system.prepare_tangent(u));
     const auto linear = solver_.solve(residual, correction, 0.5 * largest);
     outcome.cg_iterations += linear.iterations;
     ++outcome.linear_solves;

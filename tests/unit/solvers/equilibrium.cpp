@@ -47,12 +47,13 @@ class Springs : public operators::NonlinearSystem {
     for (int row = 0; row < n_per_rank; ++row) u[row] += values(row, 0);
     evaluate(u);
   }
-  void prepare_tangent(base::ConstField u) override {
+  std::vector<int> prepare_tangent(base::ConstField u) override {
     matrix_->resumeFill();
     for (int row = 0; row < n_per_rank; ++row) {
       matrix_->replaceLocalValues(row, Teuchos::tuple(row), Teuchos::tuple(linear + 3. * cubic * u[row] * u[row]));
     }
     matrix_->fillComplete();
+    return {};
   }
   Teuchos::RCP<Operator> tangent() const override { return matrix_; }
   void load_derivative(Vector& derivative) const override { derivative.putScalar(1.); }

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <string>
+#include <utility>
 
 namespace perimorph::base {
 
@@ -15,7 +16,7 @@ const char* name(Phase phase);
 /// Peak memory of this process so far, [bytes].
 double peak_memory();
 
-/// Wall-clock seconds of this rank per phase. Phases do not nest: time of an inner one is also counted in the outer.
+/// Wall-clock seconds of this rank per phase. While an inner phase lasts, the outer one waits.
 class Profile {
  public:
   using Clock = std::chrono::steady_clock;
@@ -23,8 +24,14 @@ class Profile {
   /// Adds the time until its end of life to one phase.
   class Scope {
    public:
-    Scope(Profile& profile, Phase phase) : profile_(profile), phase_(phase), begin_(Clock::now()) {}
-    ~Scope() { profile_.add(phase_, std::chrono::duration<double>(Clock::now() - begin_).count()); }
+    Scope(Profile& profile, Phase phase)
+        : profile_(profile), phase_(phase), begin_(Clock::now()), outer_(std::exchange(profile.innermost_, this)) {}
+    ~Scope() {
+      const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+      profile_.add(phase_, seconds - inner_seconds_);
+      profile_.innermost_ = outer_;
+      if (outer_ != nullptr) outer_->inner_seconds_ += seconds;
+    }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
 
@@ -32,6 +39,8 @@ class Profile {
     Profile& profile_;
     Phase phase_;
     Clock::time_point begin_;
+    Scope* outer_;
+    double inner_seconds_ = 0.;
   };
 
   [[nodiscard]] Scope measure(Phase phase) { return Scope(*this, phase); }
@@ -53,6 +62,7 @@ class Profile {
   std::array<double, n_phases> seconds_{};
   std::array<long, n_phases> calls_{};
   Clock::time_point start_ = Clock::now();
+  Scope* innermost_ = nullptr;
 };
 
 }  // namespace perimorph::base

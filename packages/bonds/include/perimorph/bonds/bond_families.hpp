@@ -16,6 +16,7 @@ namespace perimorph::bonds {
 /// computes a bond from the same numbers in the same order. An element pairs with itself too.
 struct ElementPair {
   int first, second;  ///< local elements
+  bool operator==(const ElementPair& other) const { return first == other.first && second == other.second; }
 };
 
 /// Where the stiffness of a bond comes from: memory, or its points.

@@ -18,7 +18,11 @@ class Visibility {
   /// Obstacles are the mesh's boundary and the pre-cracks. Local.
   /// @param mesh this rank's part, of which the boundary is read
   /// @param pre_cracks facets of all pre-cracks, the same on all ranks, (n), [length]
-  Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet>& pre_cracks);
+  Visibility(const mesh::Mesh<dim>& mesh, const std::vector<Facet>& pre_cracks)
+      : Visibility(mesh, mesh.boundary, pre_cracks) {}
+
+  /// The same with some of the mesh's sides in place of its boundary.
+  Visibility(const mesh::Mesh<dim>& mesh, const std::vector<mesh::Side>& sides, const std::vector<Facet>& pre_cracks);
 
   /// The obstacles that come within `reach` of a point: candidates for blocks(). Local.
   /// @param center the point, (dim), [length]

@@ -12,6 +12,7 @@ inline constexpr double longest_horizon = 100.;
 /// The nonlocal model. Lengths in the mesh's unit.
 struct Peridynamics {
   double horizon = 0., characteristic_length = 0.;  ///< [length]
+  discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
 };
 
 void declare(const input::Section& section, Peridynamics& peridynamics, model::NumericalOptions& numerical);

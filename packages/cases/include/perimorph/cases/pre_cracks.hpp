@@ -21,6 +21,6 @@ struct PreCrack {
 };
 
 void declare(const input::Section& section, PreCrack& crack);
-void check_pre_crack(const input::Values& section, int dimension);
+void check_pre_crack(const input::Values& crack, int dimension);
 
 }  // namespace perimorph::cases

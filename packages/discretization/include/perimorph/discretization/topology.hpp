@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "perimorph/bonds/bond_families.hpp"
+#include "perimorph/bonds/bonds_across_faces.hpp"
 #include "perimorph/discretization/dof_map.hpp"
 #include "perimorph/discretization/state.hpp"
 
@@ -10,6 +11,9 @@ namespace perimorph::discretization {
 
 /// Which peridynamic elements get nodes of their own: those with a broken bond or a pre-crack through them, or all.
 enum class DiscontinuousElements { on_damage, whole_zone };
+
+/// Whether crack faces may pass through each other, or press on each other (operators/contact_forces.hpp).
+enum class CrackFaces { free, contact };
 
 /// How a body is divided between the models.
 template <int dim>
@@ -22,6 +26,7 @@ struct TopologyOptions {
   double growth_inner_radius, growth_outer_radius;  ///< r_i, r_o of zones around flag points, [length]
   int points_per_direction = 2;                     ///< material points of an element
   bonds::StiffnessStorage stiffness = bonds::StiffnessStorage::stored;
+  CrackFaces crack_faces = CrackFaces::free;
 };
 
 /// What follows from a state and is rebuilt from it, never stored: alpha, the bonds there are, the classes of elements,
@@ -74,15 +79,15 @@ class Topology {
   /// BondFamilies::restore_softening(). Local.
   void restore_softening(const bonds::SofteningHistories& histories) { bonds_.restore_softening(histories); }
 
-  /// Flags of all local elements become those of their owners. Collective.
-  void share(std::vector<char>& flags) const { element_exchange_.update(flags); }
-
   // All local.
   bool is_built() const { return dofs_ != nullptr; }
   const mesh::Mesh<dim>& mesh() const { return mesh_; }
   const elements::MaterialPoints<dim>& points() const { return points_; }
   const morphing::MorphingField<dim>& alpha() const { return alpha_; }
   const bonds::BondFamilies<dim>& bonds() const { return bonds_; }
+  CrackFaces crack_faces() const { return options_.crack_faces; }
+  const std::vector<bonds::Bond<dim>>& bonds_across_faces() const { return bonds_across_faces_; }  ///< for contact
+  const HaloExchange& element_exchange() const { return element_exchange_; }       ///< of values of local elements
   const std::vector<morphing::ElementClass>& classes() const { return classes_; }  ///< per element, in the halo too
   const std::vector<char>& discontinuous() const { return discontinuous_; }  ///< per element, right in the halo too
   base::GlobalId n_discontinuous() const { return n_discontinuous_; }        ///< over all ranks
@@ -102,6 +107,7 @@ class Topology {
   elements::MaterialPoints<dim> points_;
   morphing::MorphingField<dim> alpha_;
   bonds::BondFamilies<dim> bonds_;
+  std::vector<bonds::Bond<dim>> bonds_across_faces_;
   HaloExchange element_exchange_, corner_exchange_;
   std::vector<char> cut_by_pre_crack_;  ///< per local element
   std::size_t n_grown_ = 0;             ///< flag points that alpha follows already

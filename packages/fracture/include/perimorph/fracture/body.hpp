@@ -87,7 +87,7 @@ class Body {
   /// Over all ranks and the thickness, [energy].
   Energies energies() const;
 
-  /// Where crack faces have passed furthest through each other, since there is no contact.
+  /// Where crack faces have passed furthest through each other.
   operators::Overlap<dim> overlap() const;
 
   // All local.
@@ -132,6 +132,7 @@ class Body {
   void publish(const bonds::BondChange& change);
   void balance(Accuracy accuracy);
   void follow_measure();
+  bool is_measure_met() const;
   void count(const solvers::Equilibrium::Outcome& outcome);
   std::vector<double> load_response();
   double power_of_supports() const;

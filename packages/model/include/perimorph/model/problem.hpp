@@ -9,6 +9,7 @@
 #include "perimorph/base/parallel.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
 #include "perimorph/discretization/measure.hpp"
+#include "perimorph/discretization/topology.hpp"
 #include "perimorph/materials/bond_materials.hpp"
 #include "perimorph/materials/material.hpp"
 #include "perimorph/mesh/mesh.hpp"
@@ -46,6 +47,7 @@ struct Problem {
   bool is_proportional;  ///< all loads grow together from zero: with the increment, or by a common amplitude
   std::vector<AutomaticSeed> automatic_seeds = {};
   Calibration calibration = Calibration::analytic;
+  discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
   std::map<std::string, int> material_of_block = {};  ///< place in the list, by the name of a block of the mesh
   std::vector<materials::Interface> interfaces = {};  ///< between any two of the materials
   std::vector<std::shared_ptr<const discretization::Amplitude>> amplitudes = {};  ///< that conditions refer to

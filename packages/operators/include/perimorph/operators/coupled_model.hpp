@@ -28,6 +28,17 @@ struct CoupledModel {
   }
   /// What softening has left of it; of a broken bond when it broke.
   double spring(const bonds::Bond<dim>& bond) const { return intact_spring(bond) * bonds.share_left(bond); }
+  /// What breaking or softening has taken of it; all of a bond that has never been (bonds_across_faces), [-].
+  double share_lost(const bonds::Bond<dim>& bond) const { return bond.is_broken ? 1. : 1. - bonds.share_left(bond); }
+};
+
+/// A bond that is lost, or as far as it is, and resists being pressed together (contact_forces.hpp).
+template <int dim>
+struct ContactSpring {
+  bonds::Bond<dim> bond;
+  base::Point<dim> g;  ///< along the crack's normal, [length]
+  double elongation;   ///< g . eta < 0, [length^2]
+  double tension;      ///< k (g . eta), [force / length]
 };
 
 /// What bonds see of a displacement, at material points.
@@ -37,6 +48,7 @@ struct PointFields {
   /// p = g S, the stretch that the dilatation of a point adds to all of its bonds (dilatation.hpp), (n_points),
   /// [-]; empty without dilatation
   std::vector<double> dilatational_stretch = {};
+  std::vector<ContactSpring<dim>> contacts = {};  ///< that are closed; those that this rank holds
 };
 
 /// The law of a bond at its present damage [WHL19, eq. 14, 15]: a spring along xi, stretched by eta = u(p) - u(x) and

@@ -5,6 +5,7 @@
 #include "perimorph/base/profile.hpp"
 #include "perimorph/discretization/topology.hpp"
 #include "perimorph/operators/bond_forces.hpp"
+#include "perimorph/operators/contact_forces.hpp"
 #include "perimorph/operators/load_forces.hpp"
 #include "perimorph/operators/matrix_free_tangent.hpp"
 #include "perimorph/operators/nonlinear_system.hpp"
@@ -58,8 +59,11 @@ class CoupledSystem : public NonlinearSystem {
   /// From now on this load factor holds, [-]. Local.
   void apply_load(double load_factor);
 
-  /// Bonds have broken: terms and matrices take them out, and so do the forces, if there are any; with dilatation,
-  /// where more than these bonds' forces change, they are forgotten. Returns the owned nodes whose rows have changed in
+  /// Whether bonds that break change other forces than their own: with dilatation and contact. Local.
+  bool breaks_change_more() const { return elasticity_.has_dilatation() || !contact_.is_null(); }
+
+  /// Bonds have broken: terms and matrices take them out, and so do the forces, if there are any; if more changes
+  /// (breaks_change_more), they are forgotten. Returns the owned nodes whose rows have changed in
   /// the preconditioner's matrix, some more than once. Local.
   std::vector<int> take(const bonds::BondChange& change);
 
@@ -69,7 +73,7 @@ class CoupledSystem : public NonlinearSystem {
   void evaluate(base::ConstField u) override;
   Norms residual(Vector& residual) const override;
   void correct(base::Field u, const Vector& correction) override;
-  void prepare_tangent(base::ConstField u) override;
+  std::vector<int> prepare_tangent(base::ConstField u) override;
   Teuchos::RCP<Operator> tangent() const override;
   void load_derivative(Vector& derivative) const override;
   void expand_response(const Vector& x, base::Field response) const override;
@@ -104,6 +108,7 @@ class CoupledSystem : public NonlinearSystem {
   ForceTerms<dim> terms_, load_terms_;
   Teuchos::RCP<BondForces<dim>> bond_forces_;  ///< also among the terms
   Teuchos::RCP<Anchors<dim>> anchors_;         ///< the same
+  Teuchos::RCP<ContactForces<dim>> contact_;   ///< the same; null: crack faces are free
   Teuchos::RCP<MatrixFreeTangent<dim>> tangent_;
   // As a matrix, and the short-range matrix; null if neither operator nor preconditioner needs them.
   std::unique_ptr<StiffnessMatrix<dim>> matrix_, short_range_;

@@ -51,6 +51,10 @@ class ForceTerm {
   virtual void take(const bonds::BondChange& /*change*/, StiffnessMatrix<dim>& /*matrix*/,
                     std::vector<int>& /*changed*/) const {}
 
+  /// What prepare_tangent() has changed since the last time, in a matrix that this has added itself to; adds the owned
+  /// nodes as take() does. Local.
+  virtual void update_tangent(StiffnessMatrix<dim>& /*matrix*/, std::vector<int>& /*changed*/) const {}
+
   /// Energy stored at a displacement, on this rank's share of the body, [energy].
   virtual double energy(base::ConstField u) const = 0;
 

@@ -4,6 +4,7 @@
 #include <Tpetra_Map_fwd.hpp>
 #include <Tpetra_Operator_fwd.hpp>
 #include <Tpetra_Vector_fwd.hpp>
+#include <vector>
 
 #include "perimorph/base/field.hpp"
 
@@ -35,8 +36,9 @@ class NonlinearSystem {
   /// evaluates.
   virtual void correct(base::Field u, const Vector& correction) = 0;
 
-  /// Makes the tangent -dR/du that of a displacement.
-  virtual void prepare_tangent(base::ConstField u) = 0;
+  /// Makes the tangent -dR/du that of a displacement. Returns the owned nodes whose rows have changed in the
+  /// preconditioner's matrix, some more than once.
+  virtual std::vector<int> prepare_tangent(base::ConstField u) = 0;
 
   /// The tangent, as it is prepared.
   virtual Teuchos::RCP<Operator> tangent() const = 0;

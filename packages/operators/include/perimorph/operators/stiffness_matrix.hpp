@@ -55,6 +55,10 @@ class StiffnessMatrix {
   /// than once. Local.
   std::vector<int> take(const bonds::BondChange& change);
 
+  /// The tangent as it is prepared now, which it was before the terms' last prepare_tangent(). Returns nodes as take()
+  /// does. Local.
+  std::vector<int> update_tangent();
+
   // For terms; local.
 
   const BondSelection& selection() const { return selection_; }
