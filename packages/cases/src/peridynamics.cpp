@@ -37,6 +37,8 @@ void declare(const input::Section& section, Peridynamics& peridynamics, model::N
       "history.csv). \"Contact\": they press on each other and slide without friction, which holds for small "
       "sliding, and for pre-cracks and slits without width where the body is peridynamic on both sides: put "
       "seeds along them.");
+  section.parameter("Friction Coefficient", peridynamics.friction, at_least(0.),
+                    "Of crack faces in contact (Coulomb): the largest friction over the normal force [-].");
   section.parameter(
       "Points per Direction", numerical.points_per_direction, either(2, 3),
       "Gauss points of a quadrilateral or hexahedron along each of its directions [-]: the material points that bonds "
@@ -46,6 +48,13 @@ void declare(const input::Section& section, Peridynamics& peridynamics, model::N
 }
 
 void check_peridynamics(const input::Values& section) {
+  const std::string* faces = section.text("Crack Faces");
+  const double* friction = section.number("Friction Coefficient");
+  if (faces != nullptr && friction != nullptr && *friction > 0. && *faces != "Contact") {
+    section.mistake("Friction Coefficient",
+                    fmt::format("found {:.6g}; allowed with \"Crack Faces\" = \"{}\" is 0: faces rub where they press "
+                                "on each other", *friction, *faces));
+  }
   input::check_order(section, "Characteristic Length", "Horizon");
   const double *horizon = section.number("Horizon"), *length = section.number("Characteristic Length");
   if (horizon == nullptr || length == nullptr || *horizon <= longest_horizon * *length) return;

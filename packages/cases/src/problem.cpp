@@ -198,6 +198,7 @@ model::Problem<dim> make_problem(const Case& input) {
   problem.calibration = input.material.calibration;
   problem.thickness = input.mesh.thickness.value_or(1.);
   problem.crack_faces = input.peridynamics.crack_faces;
+  problem.friction = input.peridynamics.friction;
   for (const auto& seed : input.morphing.seeds) {
     if (seed.shape == SeedShape::automatic) {
       problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});

@@ -19,25 +19,32 @@ std::pair<GlobalId, GlobalId> global_ends(const Topology<dim>& topology, const b
           topology.points().global_id(bond.second_element, bond.second_end)};
 }
 
+/// Calls visit(record, ends) for the records between points of local elements. Local.
+template <int dim, class Record, class Visit>
+void visit_local(const std::vector<Record>& records, const mesh::Mesh<dim>& mesh, Visit visit) {
+  constexpr int n = elements::max_points;
+  std::map<GlobalId, int> place_of;
+  for (int e = 0; e < mesh.n_elements(); ++e) place_of[mesh.element_ids[e]] = e;
+  for (const auto& record : records) {
+    const auto first = place_of.find(record.first / n), second = place_of.find(record.second / n);
+    if (first == place_of.end() || second == place_of.end()) continue;
+    visit(record, bonds::BondEnds{first->second, static_cast<int>(record.first % n), second->second,
+                                  static_cast<int>(record.second % n)});
+  }
+}
+
 /// Calls visit(record, bond) for the records of bonds that this rank holds. Returns of how many it owns the first
 /// element. Local.
 template <int dim, class Record, class Visit>
 GlobalId visit_held(const std::vector<Record>& records, const Topology<dim>& topology, Visit visit) {
-  constexpr int n = elements::max_points;
-  const auto& mesh = topology.mesh();
   const auto& bonds = topology.bonds();
-  std::map<GlobalId, int> place_of;
-  for (int e = 0; e < mesh.n_elements(); ++e) place_of[mesh.element_ids[e]] = e;
   GlobalId n_own = 0;
-  for (const auto& record : records) {
-    const auto first = place_of.find(record.first / n), second = place_of.find(record.second / n);
-    if (first == place_of.end() || second == place_of.end()) continue;
-    const auto bond = bonds.find(first->second, static_cast<int>(record.first % n), second->second,
-                                 static_cast<int>(record.second % n));
-    if (bond == bonds.n_bonds()) continue;
+  visit_local(records, topology.mesh(), [&](const Record& record, const bonds::BondEnds& ends) {
+    const auto bond = bonds.find(ends.first_element, ends.first_end, ends.second_element, ends.second_end);
+    if (bond == bonds.n_bonds()) return;
     visit(record, bond);
-    n_own += first->second < mesh.n_owned_elements;
-  }
+    n_own += ends.first_element < topology.mesh().n_owned_elements;
+  });
   return n_own;
 }
 
@@ -52,7 +59,7 @@ template <int dim>
 SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
   PERIMORPH_ASSERT(state.displacement.size() == static_cast<std::size_t>(topology.dofs().n_nodes()) * dim,
                    "{} displacements of {} nodes", state.displacement.size(), topology.dofs().n_nodes());
-  SavedState<dim> saved{state, {}, {}, {}};
+  SavedState<dim> saved{state, {}, {}, {}, {}};
   const auto& mesh = topology.mesh();
   const auto& bonds = topology.bonds();
   for (const auto& [call, broken] : state.broken) {
@@ -73,6 +80,14 @@ SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
       const auto [first, second] = global_ends(topology, bond);
       saved.softened.push_back({first, second, {accepted, largest}});
     });
+  }
+  for (const auto& [ends, slip] : topology.slips()) {
+    if (ends.first_element >= mesh.n_owned_elements) continue;
+    saved.slips.push_back({topology.points().global_id(ends.first_element, ends.first_end),
+                           topology.points().global_id(ends.second_element, ends.second_end),
+                           {}});
+    std::copy_n(slip.distance.data(), dim, saved.slips.back().values.begin());
+    std::copy_n(slip.friction.data(), dim, saved.slips.back().values.begin() + dim);
   }
   saved.displacement.assign(mesh.n_owned_elements * stride<dim>, 0.);
   for (int e = 0; e < mesh.n_owned_elements; ++e) {
@@ -108,6 +123,16 @@ bonds::SofteningHistories find_softened(const base::Comm& comm, const SavedState
 }
 
 template <int dim>
+bonds::Slips<dim> find_slips(const SavedState<dim>& saved, const Topology<dim>& topology) {
+  using Values = Eigen::Map<const base::Point<dim>>;
+  bonds::Slips<dim> found;
+  visit_local(saved.slips, topology.mesh(), [&](const SavedSlip<dim>& slip, const bonds::BondEnds& ends) {
+    found[ends] = {Values(slip.values.data()), Values(slip.values.data() + dim)};
+  });
+  return found;
+}
+
+template <int dim>
 std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topology<dim>& topology) {
   const auto& dofs = topology.dofs();
   PERIMORPH_ASSERT(saved.displacement.size() == topology.mesh().n_elements() * stride<dim>,
@@ -126,6 +151,7 @@ std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topol
   template SavedState<dim> save(const State<dim>&, const Topology<dim>&);                                            \
   template BrokenByCall find_broken(const base::Comm&, const SavedState<dim>&, const Topology<dim>&);                \
   template bonds::SofteningHistories find_softened(const base::Comm&, const SavedState<dim>&, const Topology<dim>&); \
+  template bonds::Slips<dim> find_slips(const SavedState<dim>&, const Topology<dim>&);                               \
   template std::vector<double> nodal_displacement(const SavedState<dim>&, const Topology<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

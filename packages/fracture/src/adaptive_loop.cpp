@@ -78,7 +78,7 @@ LoopEnd run_increment(Body<dim>& body, double prescribed, const LoopLimits& limi
     if (end == LoopEnd::cut) position = {position.increment, position.step.halved()};
     if (end != LoopEnd::done) return end;
   } while (body.flag_damaged_elements() > 0);
-  body.accept_softening();
+  body.accept_history();
   const bool may_grow = 2 * broken_in_this(body, position) <= limits.largest_break;
   position = {increment, position.step.next(may_grow)};
   observer.accepted(position, body);

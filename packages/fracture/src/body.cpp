@@ -41,8 +41,8 @@ discretization::TopologyOptions<dim> topology_options(const mesh::Mesh<dim>& mes
           problem.crack_faces};
 }
 
-operators::SystemOptions system_options(const NumericalOptions& options) {
-  return {options.operator_form, options.preconditioner_matrix, options.short_range_cut_off};
+operators::SystemOptions system_options(const NumericalOptions& options, double friction) {
+  return {options.operator_form, options.preconditioner_matrix, options.short_range_cut_off, friction};
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       profile_(profile),
       topology_(comm, mesh, topology_options(mesh, problem, options)),
       dirichlet_(*comm, mesh, problem.displacements),
-      system_(*comm, topology_, dirichlet_, problem.loads, elasticity(mesh, problem, options), system_options(options),
+      system_(*comm, topology_, dirichlet_, problem.loads, elasticity(mesh, problem, options), system_options(options, problem.friction),
               profile),
       equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
@@ -205,10 +205,11 @@ void Body<dim>::follow_measure() {
   system_.forget_forces();
 }
 
-/// With constant loads contact may change, and then what is measured is not linear in the load factor.
+/// Where contact changes or faces slide, what is measured is not linear in the load factor.
 template <int dim>
 bool Body<dim>::is_measure_met() const {
-  if (problem_.is_proportional || problem_.crack_faces == discretization::CrackFaces::free) return true;
+  if (problem_.crack_faces == discretization::CrackFaces::free) return true;
+  if (problem_.is_proportional && problem_.friction == 0.) return true;
   return std::abs(measured() - prescribed_) <= options_.damage_tolerance * std::abs(prescribed_);
 }
 
@@ -273,10 +274,17 @@ bool Body<dim>::is_settled(const bonds::BondChange& change) const {
 }
 
 template <int dim>
-void Body<dim>::accept_softening() {
-  if (!topology_.bonds().softens()) return;
-  state_.energies.dissipated += base::sum(*comm_, operators::dissipation_of_softening(model(), system_.at_points()));
-  topology_.accept_softening();
+void Body<dim>::accept_history() {
+  if (topology_.bonds().softens()) {
+    state_.energies.dissipated += base::sum(*comm_, operators::dissipation_of_softening(model(), system_.at_points()));
+    topology_.accept_softening();
+  }
+  if (problem_.friction == 0.) return;
+  auto slips = system_.slips(displacement());
+  state_.energies.friction +=
+      base::sum(*comm_, operators::ContactForces<dim>::work_of_friction(topology_, slips));
+  topology_.accept_slips(std::move(slips));
+  system_.follow_slips();
 }
 
 /// To all that is built from bonds.
@@ -303,6 +311,7 @@ void Body<dim>::restore(const discretization::SavedState<dim>& saved) {
   state_.load_factor = saved.load_factor;
   state_.flag_points = saved.flag_points;
   topology_.note_flags(saved.flag_points);
+  topology_.accept_slips(discretization::find_slips(saved, topology_));
   const bool has_grown = grow();
   state_.broken = discretization::find_broken(*comm_, saved, topology_);
   auto next = state_.broken.begin();
@@ -340,13 +349,14 @@ double Body<dim>::elastic_energy() const {
   const auto& force = system_.internal_force();
   double elastic = 0.;
   for (std::size_t i = 0; i < force.size(); ++i) elastic = std::fma(0.5 * force[i], state_.displacement[i], elastic);
-  return base::sum(*comm_, elastic);
+  return base::sum(*comm_, elastic - system_.slid_energy());
 }
 
 template <int dim>
 Energies Body<dim>::energies() const {
   const double t = problem_.thickness;
-  return {t * elastic_energy(), t * state_.energies.dissipated, t * state_.energies.external_work};
+  const auto& [elastic, dissipated, work, friction] = state_.energies;
+  return {t * elastic_energy(), t * dissipated, t * work, t * friction};
 }
 
 template <int dim>

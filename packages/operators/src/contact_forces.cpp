@@ -8,9 +8,21 @@ namespace perimorph::operators {
 
 using base::Point;
 
+namespace {
+
 template <int dim>
-ContactForces<dim>::ContactForces(const CoupledModel<dim>& model, const discretization::Topology<dim>& topology)
-    : model_(model), normals_(model, topology) {
+bonds::Slip<dim> accepted_slip(const discretization::Topology<dim>& topology, const bonds::BondEnds& ends) {
+  const auto found = topology.slips().find(ends);
+  return found == topology.slips().end() ? bonds::Slip<dim>() : found->second;
+}
+
+}  // namespace
+
+template <int dim>
+ContactForces<dim>::ContactForces(const CoupledModel<dim>& model, const discretization::Topology<dim>& topology,
+                                  double friction)
+    : model_(model), topology_(topology), friction_(friction), normals_(model, topology) {
+  PERIMORPH_ASSERT(friction >= 0., "a coefficient of friction of {}", friction);
   const auto add = [&](const bonds::Bond<dim>& bond) { this->add(bond); };
   model_.bonds.for_each_bond(add);
   for (const auto& bond : topology.bonds_across_faces()) add(bond);
@@ -18,39 +30,72 @@ ContactForces<dim>::ContactForces(const CoupledModel<dim>& model, const discreti
 
 template <int dim>
 void ContactForces<dim>::add(const bonds::Bond<dim>& bond) {
-  const double stiffness = stiffness_of(bond);
-  if (stiffness == 0.) return;
-  const Point<dim> n = normals_.across(bond);
+  if (model_.share_lost(bond) == 0.) return;
+  const Point n = normals_.across(bond);
+  Contact contact{bond, bond.xi.dot(n) * n, 0., 0., accepted_slip(topology_, bonds::ends_of(bond)).distance};
+  set_stiffness(contact);
   if (model_.bonds.softens() && bond.id < model_.bonds.n_bonds()) place_of_[bond.id] = contacts_.size();
-  contacts_.push_back({bond, bond.xi.dot(n) * n, stiffness});
+  contacts_.push_back(contact);
 }
 
 /// As a bond may never have been, its stiffness follows from its points. kappa / mu of a material is its factor of
 /// dilatation times 2 (dim + 2) / dim, and (lambda + 2 mu) / (3 mu) is 1 + kappa / (3 mu).
 template <int dim>
-double ContactForces<dim>::stiffness_of(const bonds::Bond<dim>& bond) const {
-  const double lost = model_.share_lost(bond);
-  if (lost == 0.) return 0.;
+void ContactForces<dim>::set_stiffness(Contact& contact) const {
+  const auto& bond = contact.bond;
   const auto mean = [](double one, double other) { return 0.5 * (one + other); };
   const double c0 = model_.bonds.materials().stiffness(bond.first_element, bond.second_element, bond.xi.norm());
+  const double lost = model_.share_lost(bond) * c0 * mean(model_.alpha(bond.first_point), model_.alpha(bond.second_point)) *
+                      model_.points.weight(bond.first_point) * model_.points.weight(bond.second_point);
   const double factor = mean(model_.elasticity.dilatation_factor(bond.first_element),
                              model_.elasticity.dilatation_factor(bond.second_element));
-  return lost * c0 * mean(model_.alpha(bond.first_point), model_.alpha(bond.second_point)) *
-         model_.points.weight(bond.first_point) * model_.points.weight(bond.second_point) *
-         (1. + factor * 2. * (dim + 2.) / (3. * dim));
+  contact.along_normal = lost * (1. + factor * 2. * (dim + 2.) / (3. * dim));
+  contact.along_faces = friction_ == 0. ? 0. : lost * contact.g.squaredNorm() / 3.;
+}
+
+/// eta
+template <int dim>
+Point<dim> ContactForces<dim>::opening(const Contact& contact, base::ConstField u) const {
+  const auto& bond = contact.bond;
+  return displacement_at(model_, u, bond.second_element, bond.second_end) -
+         displacement_at(model_, u, bond.first_element, bond.first_end);
 }
 
 template <int dim>
-double ContactForces<dim>::elongation(const Contact& contact, base::ConstField u) const {
-  const auto& bond = contact.bond;
-  return contact.g.dot(displacement_at(model_, u, bond.second_element, bond.second_end) -
-                       displacement_at(model_, u, bond.first_element, bond.first_end));
+typename ContactForces<dim>::Response ContactForces<dim>::response(const Contact& contact, const Point& eta) const {
+  Response response;
+  const double elongation = contact.g.dot(eta), squared = contact.g.squaredNorm();
+  response.is_closed = elongation < 0.;
+  if (friction_ > 0. && squared > 0.) response.sliding = eta - elongation / squared * contact.g;
+  if (!response.is_closed) return response;
+  response.normal = contact.along_normal * elongation * contact.g;
+  if (friction_ == 0.) return response;
+  response.friction = contact.along_faces * (response.sliding - contact.slip);
+  const double largest = friction_ * response.normal.norm(), trial = response.friction.norm();
+  response.slides = trial > largest;
+  if (response.slides) response.friction *= largest / trial;
+  return response;
+}
+
+/// k g (x) g, and along the faces k_t where they stick; where they slide, across the friction as stiff as its size says.
+template <int dim>
+typename ContactForces<dim>::Block ContactForces<dim>::tangent(const Contact& contact, const Response& response) const {
+  if (!response.is_closed) return Block::Zero();
+  Block block = contact.along_normal * contact.g * contact.g.transpose();
+  if (friction_ == 0. || contact.g.squaredNorm() == 0.) return block;
+  const Point n = contact.g.normalized();
+  Block along_faces = Block::Identity() - n * n.transpose();
+  if (response.slides) {
+    const Point trial = contact.along_faces * (response.sliding - contact.slip), direction = trial.normalized();
+    along_faces -= direction * direction.transpose();
+    along_faces *= response.friction.norm() / trial.norm();
+  }
+  return block + contact.along_faces * along_faces;
 }
 
 template <int dim>
-void ContactForces<dim>::push(const Contact& contact, double tension, base::Field force) const {
+void ContactForces<dim>::hold(const Contact& contact, const Point& on_second, base::Field force) const {
   const auto& bond = contact.bond;
-  const Point<dim> on_second = tension * contact.g;
   spread<dim>(model_, bond.first_element, bond.first_end, -on_second, force);
   spread<dim>(model_, bond.second_element, bond.second_end, on_second, force);
 }
@@ -59,8 +104,8 @@ template <int dim>
 void ContactForces<dim>::add_force(base::ConstField u, base::Field force) const {
   PERIMORPH_ASSERT(u.size() == force.size(), "{} displacements, {} forces", u.size(), force.size());
   for (const auto& contact : contacts_) {
-    const double q = elongation(contact, u);
-    if (q < 0.) push(contact, contact.stiffness * q, force);
+    const auto now = response(contact, opening(contact, u));
+    if (now.is_closed) hold(contact, now.normal + now.friction, force);
   }
 }
 
@@ -69,7 +114,7 @@ void ContactForces<dim>::prepare_tangent(base::ConstField u) {
   stiffened_.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     auto& contact = contacts_[i];
-    const double wanted = elongation(contact, u) < 0. ? contact.stiffness : 0.;
+    const Block wanted = tangent(contact, response(contact, opening(contact, u)));
     if (wanted == contact.in_tangent) continue;
     stiffened_.push_back({i, wanted - contact.in_tangent});
     contact.in_tangent = wanted;
@@ -80,42 +125,75 @@ template <int dim>
 void ContactForces<dim>::add_tangent_product(base::ConstField x, base::Field force) const {
   PERIMORPH_ASSERT(x.size() == force.size(), "{} displacements, {} forces", x.size(), force.size());
   for (const auto& contact : contacts_) {
-    if (contact.in_tangent != 0.) push(contact, contact.in_tangent * elongation(contact, x), force);
+    if (!contact.in_tangent.isZero(0.)) hold(contact, contact.in_tangent * opening(contact, x), force);
   }
 }
 
 /// A bond that softens changes what is known of it, or becomes known, as one that breaks does.
 template <int dim>
 void ContactForces<dim>::take(const bonds::BondChange& change) {
-  const auto take = [&](bonds::Bond<dim> bond) {
+  const auto take = [&](const bonds::Bond<dim>& bond) {
     const auto known = place_of_.find(bond.id);
     if (known == place_of_.end()) return add(bond);
     contacts_[known->second].bond = bond;
-    contacts_[known->second].stiffness = stiffness_of(bond);
+    set_stiffness(contacts_[known->second]);
   };
   for (const auto id : change.broken) take(model_.bonds.bond(id));
   for (const auto& softened : change.softened) take(model_.bonds.bond(softened.id));
 }
 
 template <int dim>
+std::vector<ContactSpring<dim>> ContactForces<dim>::closed(base::ConstField u) const {
+  std::vector<ContactSpring<dim>> springs;
+  for (const auto& contact : contacts_) {
+    const Point eta = opening(contact, u);
+    const auto now = response(contact, eta);
+    if (!now.is_closed) continue;
+    const double slid = now.friction.isZero(0.) ? 0. : 0.5 * now.friction.dot(now.sliding) -
+                                                          0.5 * now.friction.squaredNorm() / contact.along_faces;
+    springs.push_back({contact.bond, now.normal + now.friction, 0.5 * (now.normal + now.friction).dot(eta) - slid, slid});
+  }
+  return springs;
+}
+
+template <int dim>
 double ContactForces<dim>::energy(base::ConstField u) const {
   double energy = 0.;
-  for (const auto& contact : contacts_) {
-    if (contact.bond.first_element >= model_.mesh.n_owned_elements) continue;
-    const double q = std::min(0., elongation(contact, u));
-    energy += 0.5 * contact.stiffness * q * q;
+  for (const auto& spring : closed(u)) {
+    if (spring.bond.first_element < model_.mesh.n_owned_elements) energy += spring.energy;
   }
   return energy;
 }
 
 template <int dim>
-std::vector<ContactSpring<dim>> ContactForces<dim>::closed(base::ConstField u) const {
-  std::vector<ContactSpring<dim>> springs;
+bonds::Slips<dim> ContactForces<dim>::slips(base::ConstField u) const {
+  bonds::Slips<dim> slips;
+  if (friction_ == 0.) return slips;
   for (const auto& contact : contacts_) {
-    const double q = elongation(contact, u);
-    if (q < 0.) springs.push_back({contact.bond, contact.g, q, contact.stiffness * q});
+    const auto now = response(contact, opening(contact, u));
+    Point distance = contact.slip;
+    if (!now.is_closed) distance = now.sliding;
+    if (now.slides) distance = now.sliding - now.friction / contact.along_faces;
+    slips[bonds::ends_of(contact.bond)] = {distance, now.friction};
   }
-  return springs;
+  return slips;
+}
+
+template <int dim>
+void ContactForces<dim>::follow_slips() {
+  for (auto& contact : contacts_) contact.slip = accepted_slip(topology_, bonds::ends_of(contact.bond)).distance;
+}
+
+template <int dim>
+double ContactForces<dim>::work_of_friction(const discretization::Topology<dim>& topology,
+                                            const bonds::Slips<dim>& slips) {
+  double work = 0.;
+  for (const auto& [ends, now] : slips) {
+    if (ends.first_element >= topology.mesh().n_owned_elements || now.friction.isZero(0.)) continue;
+    const auto before = accepted_slip(topology, ends);
+    work += 0.5 * (before.friction + now.friction).dot(now.distance - before.distance);
+  }
+  return work;
 }
 
 template <int dim>
@@ -138,7 +216,7 @@ template <int dim>
 void ContactForces<dim>::add_to(StiffnessMatrix<dim>& matrix) const {
   std::vector<Stiffening> all;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (contacts_[i].in_tangent != 0.) all.push_back({i, contacts_[i].in_tangent});
+    if (!contacts_[i].in_tangent.isZero(0.)) all.push_back({i, contacts_[i].in_tangent});
   }
   std::vector<int> changed;
   add_to(matrix, all, changed);
@@ -154,12 +232,12 @@ void ContactForces<dim>::add_to(StiffnessMatrix<dim>& matrix, const std::vector<
                                 std::vector<int>& changed) const {
   std::vector<PointSpring<dim>> selected;
   for (const auto& [i, by] : springs) {
-    const auto& [bond, g, stiffness, in_tangent] = contacts_[i];
+    const auto& bond = contacts_[i].bond;
     if (!matrix.selects(bond.xi)) continue;
     selected.push_back({{bond.first_element, bond.second_element},
                         bond.first_end,
                         bond.second_end,
-                        matrix.selection().scale * by * g * g.transpose()});
+                        matrix.selection().scale * by});
   }
   add_springs(model_, selected, matrix, changed);
 }

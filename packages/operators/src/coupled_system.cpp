@@ -50,7 +50,7 @@ void CoupledSystem<dim>::make_terms(const Supports<dim>& supports) {
   bond_forces_ = Teuchos::rcp(new BondForces<dim>(model()));
   terms_ = {Teuchos::rcp(new LocalForces<dim>(model())), bond_forces_, anchors_};
   if (topology_.crack_faces() == discretization::CrackFaces::contact) {
-    contact_ = Teuchos::rcp(new ContactForces<dim>(model(), topology_));
+    contact_ = Teuchos::rcp(new ContactForces<dim>(model(), topology_, options_.friction));
     terms_.push_back(contact_);
   }
   load_terms_ = {Teuchos::rcp(new LoadForces<dim>(model(), load_data_))};
@@ -127,6 +127,25 @@ std::vector<double> CoupledSystem<dim>::sum_of_forces(const ForceTerms<dim>& ter
   for (const auto& term : terms) term->add_force(u, base::field(forces));
   forces.resize(space_->n_owned());
   return forces;
+}
+
+template <int dim>
+bonds::Slips<dim> CoupledSystem<dim>::slips(base::ConstField u) const {
+  return contact_.is_null() ? bonds::Slips<dim>() : contact_->slips(u);
+}
+
+template <int dim>
+void CoupledSystem<dim>::follow_slips() {
+  if (!contact_.is_null()) contact_->follow_slips();
+}
+
+template <int dim>
+double CoupledSystem<dim>::slid_energy() const {
+  double sum = 0.;
+  for (const auto& contact : at_points_.contacts) {
+    if (contact.bond.first_element < topology_.mesh().n_owned_elements) sum += contact.slid_energy;
+  }
+  return sum;
 }
 
 template <int dim>

@@ -46,14 +46,14 @@ void visit_bonds(const CoupledModel<dim>& model, int p, const PointFields<dim>& 
 template <int dim, class Visit>
 void visit_contacts(const PointFields<dim>& at_points, Visit visit) {
   for (const auto& contact : at_points.contacts) {
-    const Point<dim>&g = contact.g, &xi = contact.bond.xi;
+    const Point<dim>&pull = contact.pull, &xi = contact.bond.xi;
     base::Voigt<dim> stress;
-    stress.template head<dim>() = g.cwiseProduct(xi);
+    stress.template head<dim>() = pull.cwiseProduct(xi);
     for (int v = dim; v < base::n_voigt<dim>; ++v) {
       const auto [i, j] = elements::shear_axes<dim>(v);
-      stress[v] = 0.5 * (g[i] * xi[j] + g[j] * xi[i]);
+      stress[v] = 0.5 * (pull[i] * xi[j] + pull[j] * xi[i]);
     }
-    visit(contact.bond, 0.25 * contact.tension * contact.elongation, 0.5 * contact.tension * stress);
+    visit(contact.bond, 0.5 * contact.energy, 0.5 * stress);
   }
 }
 

@@ -22,7 +22,7 @@ template <class DataSets, class State, class Flag>
 void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
   auto& counts = state.counts;
   sets.numbers("body", state.load_factor, state.load_step, state.force_scale, state.energies.dissipated,
-               state.energies.external_work);
+               state.energies.external_work, state.energies.friction);
   sets.integers("body_counts", counts.broken_bonds, counts.damaged_elements, counts.dgfe_elements, counts.unknowns,
                 counts.linear_solves, counts.cg_iterations, counts.topologies, state.break_calls,
                 state.break_calls_before_topology);
@@ -31,6 +31,9 @@ void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
   sets.records("broken_bonds", state.broken, &BrokenBond::first, &BrokenBond::second, &BrokenBond::call);
   sets.records("softened_bonds", state.softened, &SoftBond::first, &SoftBond::second);
   sets.arrays("largest_stretches", state.softened, &SoftBond::largest_stretches);
+  using Slip = typename decltype(state.slips)::value_type;
+  sets.records("slips", state.slips, &Slip::first, &Slip::second);
+  sets.arrays("slips_and_friction", state.slips, &Slip::values);
 }
 
 /// Every rank's elements' values out of those of all elements, which rank 0 has. Collective.
@@ -65,6 +68,7 @@ io::Checkpoint gather_state(const base::Comm& comm, const SavedState<dim>& state
   SavedState<dim> whole = state;
   whole.broken = base::gather_on_root(comm, state.broken);
   whole.softened = base::gather_on_root(comm, state.softened);
+  whole.slips = base::gather_on_root(comm, state.slips);
   const auto ids = base::gather_on_root(comm, owned_elements);
   const auto values = base::gather_on_root(comm, state.displacement);
   io::Checkpoint checkpoint;

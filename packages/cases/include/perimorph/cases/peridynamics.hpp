@@ -13,6 +13,7 @@ inline constexpr double longest_horizon = 100.;
 struct Peridynamics {
   double horizon = 0., characteristic_length = 0.;  ///< [length]
   discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
+  double friction = 0.;  ///< [-]
 };
 
 void declare(const input::Section& section, Peridynamics& peridynamics, model::NumericalOptions& numerical);

@@ -15,6 +15,13 @@ struct SoftBond {
   std::array<double, 2> largest_stretches;
 };
 
+/// A slip by the global ids of the points between which it is: distance and friction, (2 dim).
+template <int dim>
+struct SavedSlip {
+  base::GlobalId first, second;
+  std::array<double, 2 * dim> values;
+};
+
 /// One rank's share of a state by global ids, as it goes into a checkpoint or to another partition. From the shares of
 /// any number of ranks, any other number of ranks can go on.
 template <int dim>
@@ -23,6 +30,7 @@ struct SavedState : History<dim> {
 
   std::vector<BrokenBond> broken;    ///< bonds of which this rank owns the first element, as they broke
   std::vector<SoftBond> softened;    ///< unbroken ones, likewise
+  std::vector<SavedSlip<dim>> slips;  ///< likewise
   std::vector<double> displacement;  ///< of owned elements, (n_owned_elements, values_per_element), [length]
 };
 
@@ -39,6 +47,10 @@ BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, c
 template <int dim>
 bonds::SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved,
                                         const Topology<dim>& topology);
+
+/// The slips between points of local elements, out of those of all ranks. Local.
+template <int dim>
+bonds::Slips<dim> find_slips(const SavedState<dim>& saved, const Topology<dim>& topology);
 
 /// The displacement on all local degrees of freedom of the topology, [length]. Local.
 /// @param saved has that of all local elements

@@ -16,9 +16,10 @@ struct Counts {
   base::GlobalId topologies = 0;                        ///< built since the beginning
 };
 
-/// Energies of a body, [energy]. What the loads' work exceeds elastic + dissipated energy was lost in brittle jumps.
+/// Energies of a body, [energy]: what it stores, what breaking and friction have taken, and what the loads have done.
+/// What the last exceeds the others by was lost in brittle jumps.
 struct Energies {
-  double elastic = 0., dissipated = 0., external_work = 0.;
+  double elastic = 0., dissipated = 0., external_work = 0., friction = 0.;
 };
 
 /// Around it the zone has grown, since a bond of the element broke. Growths are counted from 1.

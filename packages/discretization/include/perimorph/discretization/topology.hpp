@@ -4,6 +4,7 @@
 
 #include "perimorph/bonds/bond_families.hpp"
 #include "perimorph/bonds/bonds_across_faces.hpp"
+#include "perimorph/bonds/slip.hpp"
 #include "perimorph/discretization/dof_map.hpp"
 #include "perimorph/discretization/state.hpp"
 
@@ -76,6 +77,9 @@ class Topology {
   /// BondFamilies::accept_softening(). Local.
   void accept_softening() { bonds_.accept_softening(); }
 
+  /// How crack faces have slid by now. Local.
+  void accept_slips(bonds::Slips<dim> slips) { slips_ = std::move(slips); }
+
   /// BondFamilies::restore_softening(). Local.
   void restore_softening(const bonds::SofteningHistories& histories) { bonds_.restore_softening(histories); }
 
@@ -87,6 +91,7 @@ class Topology {
   const bonds::BondFamilies<dim>& bonds() const { return bonds_; }
   CrackFaces crack_faces() const { return options_.crack_faces; }
   const std::vector<bonds::Bond<dim>>& bonds_across_faces() const { return bonds_across_faces_; }  ///< for contact
+  const bonds::Slips<dim>& slips() const { return slips_; }  ///< when they were last accepted
   const HaloExchange& element_exchange() const { return element_exchange_; }       ///< of values of local elements
   const std::vector<morphing::ElementClass>& classes() const { return classes_; }  ///< per element, in the halo too
   const std::vector<char>& discontinuous() const { return discontinuous_; }  ///< per element, right in the halo too
@@ -108,6 +113,7 @@ class Topology {
   morphing::MorphingField<dim> alpha_;
   bonds::BondFamilies<dim> bonds_;
   std::vector<bonds::Bond<dim>> bonds_across_faces_;
+  bonds::Slips<dim> slips_;
   HaloExchange element_exchange_, corner_exchange_;
   std::vector<char> cut_by_pre_crack_;  ///< per local element
   std::size_t n_grown_ = 0;             ///< flag points that alpha follows already

@@ -62,8 +62,8 @@ class Body {
   /// @param may_recover whether what has softened under this load may be taken back, where it went too far
   base::GlobalId break_bonds(bool may_recover = false);
 
-  /// What has softened under this load is not taken back any more.
-  void accept_softening();
+  /// What has softened or slid under this load is not taken back any more.
+  void accept_history();
 
   /// Makes the centroids of newly damaged elements flag points, around which alpha will grow [WHL19, section 3.3];
   /// returns how many.

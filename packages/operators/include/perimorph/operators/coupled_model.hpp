@@ -36,9 +36,9 @@ struct CoupledModel {
 template <int dim>
 struct ContactSpring {
   bonds::Bond<dim> bond;
-  base::Point<dim> g;  ///< along the crack's normal, [length]
-  double elongation;   ///< g . eta < 0, [length^2]
-  double tension;      ///< k (g . eta), [force / length]
+  base::Point<dim> pull;  ///< that it takes to hold its second end; its first the opposite, [force]
+  double energy;          ///< that it stores, [energy]
+  double slid_energy;     ///< what 1/2 pull . eta is more than that, where faces have slid, [energy]
 };
 
 /// What bonds see of a displacement, at material points.

@@ -25,6 +25,7 @@ struct SystemOptions {
   OperatorForm operator_form = OperatorForm::matrix_free;
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
   double short_range_cut_off = 0.;  ///< [length]
+  double friction = 0.;             ///< coefficient, of crack faces in contact [-]
 };
 
 /// The balance of the coupled model as a list of terms on a space: local elements, bonds, anchors; against them the
@@ -90,6 +91,12 @@ class CoupledSystem : public NonlinearSystem {
 
   /// The forces that the loads exert, on owned degrees of freedom, [force].
   const std::vector<double>& loads() const { return loads_; }
+
+  /// How far crack faces have slid at a displacement; to be accepted by the topology, and then followed.
+  bonds::Slips<dim> slips(base::ConstField u) const;
+  void follow_slips();
+  /// What 1/2 F . u is more than the energy stored, on this rank, [energy].
+  double slid_energy() const;
 
   const PointFields<dim>& at_points() const { return at_points_; }  ///< at the last evaluation
   const ForceTerms<dim>& terms() const { return terms_; }           ///< of the internal force
