@@ -47,6 +47,7 @@ struct SpecimenIn {
   std::optional<materials::Toughness> interface = {};  ///< between any two materials; none: perfect
   std::optional<model::MeasureControl<dim>> control = {};
   discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
+  double friction = 0.;  ///< coefficient
 };
 using Specimen = SpecimenIn<2>;
 
@@ -80,6 +81,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   problem.interfaces = std::move(interfaces);
   problem.control = specimen.control;
   problem.crack_faces = specimen.crack_faces;
+  problem.friction = specimen.friction;
   return problem;
 }
 

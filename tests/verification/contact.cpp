@@ -58,24 +58,25 @@ struct Result {
   base::GlobalId solves = 0;
 };
 
-/// Of the faces of a slit along sides of elements.
+/// How far the upper face of a slit along sides of elements moves against the lower one, at most, along a direction.
+/// @param up the normal that says which is the upper one
 template <int dim>
-double smallest_gap(const SpecimenBodyIn<dim>& test, const base::Point<dim>& normal) {
+double largest_jump(const SpecimenBodyIn<dim>& test, const base::Point<dim>& up, const base::Point<dim>& direction) {
   const auto& mesh = test.mesh;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const auto& [one, other] : mesh::coincident_sides(mesh, mesh.boundary)) {
-    const double upward = normal.dot(mesh::centroid(mesh, other.element) - mesh::centroid(mesh, one.element));
-    for (const auto& x : mesh::corner_points(mesh, one)) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (auto [upper, lower] : mesh::coincident_sides(mesh, mesh.boundary)) {
+    const auto height = [&](const mesh::Side& side) { return up.dot(mesh::centroid(mesh, side.element)); };
+    if (height(upper) < height(lower)) std::swap(upper, lower);
+    for (const auto& x : mesh::corner_points(mesh, upper)) {
       const auto displacement = [&](int element) -> base::Point<dim> {
         int k = 0;
         while (mesh.coordinates[mesh.corners_of(element)[k]] != x) ++k;
         return base::at_node<dim>(test.body.displacement(), test.body.topology().dofs().nodes_of(element)[k]);
       };
-      const double opening = normal.dot(displacement(other.element) - displacement(one.element));
-      smallest = std::min(smallest, upward > 0. ? opening : -opening);
+      largest = std::max(largest, direction.dot(displacement(upper.element) - displacement(lower.element)));
     }
   }
-  return -base::max(*Tpetra::getDefaultComm(), -smallest);
+  return base::max(*Tpetra::getDefaultComm(), largest);
 }
 
 template <int dim>
@@ -90,7 +91,7 @@ Result deform(mesh::Mesh<dim> whole, const std::vector<mesh::CrackFacet<dim>>& c
   specimen.tolerance = 1e-6;
   SpecimenBodyIn<dim> test(specimen);
   test.advance(1.);
-  return {test.body.energies().elastic, smallest_gap(test, normal), test.body.counts().linear_solves};
+  return {test.body.energies().elastic, -largest_jump<dim>(test, normal, -normal), test.body.counts().linear_solves};
 }
 
 // ---- in two dimensions ----
@@ -138,6 +139,70 @@ TEST(ClosedSlit, InStepsFollowsItsCourse) {
   for (const double distortion : {0., 0.15}) {
     constexpr double slope = 0.5;  // it slides by 24
     expect_that_it_carries_and_slides({distortion, staircase(plate(distortion), 8, slope), std::atan(slope), 0.2, 2.});
+  }
+}
+
+// ---- with friction ----
+
+struct Slid {
+  double slip;  ///< at most, in the middle of the slit, [length]
+  discretization::Energies energies;
+  base::GlobalId solves;
+};
+
+constexpr double half_length = 8., inclination = M_PI / 4.;
+
+/// A slit in a plate that is pressed along a line at an angle to it, by these shares of the strain one after the other.
+std::vector<Slid> press(double friction, const std::vector<double>& loads) {
+  const auto cut = mesh::polyline({{-half_length, 0.}, {half_length, 0.}});
+  auto whole = plate(0.);
+  mesh::open_along<2>(whole, cut);
+  const Slit turned{0., {}, inclination};
+  Specimen specimen = patch<2>(std::move(whole), 4., 1. / 3., gradient(turned, strain_size, 0.));
+  specimen.seeds = {Zone<2>::ball({0., 0.}, 13., 18.)};
+  specimen.pre_cracks = cut;
+  specimen.crack_faces = CrackFaces::contact;
+  specimen.friction = friction;
+  specimen.tolerance = 1e-6;
+  SpecimenBody test(specimen);
+  std::vector<Slid> course;
+  for (const double load : loads) {
+    test.advance(load);
+    const auto slip = [&](double sense) { return largest_jump<2>(test, {0., 1.}, {sense, 0.}); };
+    course.push_back({std::max(slip(1.), slip(-1.)), test.body.energies(), test.body.counts().linear_solves});
+  }
+  return course;
+}
+
+/// Under a stress sigma along a line at an angle to the slit its faces press on each other by sigma cos^2 and are
+/// sheared by sigma sin cos; friction takes its coefficient times the former off the latter. In an infinite plate in
+/// plane stress the middle slides by 4 a / E times what is left: without friction, at 45 degrees, by this.
+constexpr double free_slip = 4. * half_length * 0.5 * strain_size, accuracy = 0.05 * free_slip;
+
+TEST(Friction, OfAnInclinedSlitLeavesWhatTheShearExceedsIt) {
+  for (const double friction : {0., 0.3, 0.6, 2.}) {
+    const auto at_once = press(friction, {1.}).back(), in_steps = press(friction, {0.25, 0.5, 0.75, 1.}).back();
+    EXPECT_NEAR(at_once.slip, std::max(0., 1. - friction / std::tan(inclination)) * free_slip, accuracy);
+    EXPECT_NEAR(in_steps.slip, at_once.slip, 1e-3 * free_slip);
+    EXPECT_EQ(in_steps.energies.friction > 0., friction > 0.);
+    const auto& [elastic, dissipated, work, rubbed] = in_steps.energies;
+    EXPECT_NEAR(work, elastic + rubbed, 1e-6 * elastic);
+    EXPECT_LE(std::max(at_once.solves, in_steps.solves), 12);
+  }
+}
+
+/// Let go down to a share of the load, the faces stick until friction is as large the other way, at a share of
+/// (1 - f) / (1 + f), and then slide back to (1 + f) times it; loaded again they come to where they were.
+TEST(Friction, HoldsWhatHasSlidUntilItIsAsLargeTheOtherWay) {
+  constexpr double friction = 0.3;
+  const auto course = press(friction, {1., 0.7, 0.2, 1.});
+  EXPECT_NEAR(course[1].slip, course[0].slip, accuracy);
+  EXPECT_NEAR(course[2].slip, 0.2 * (1. + friction) * free_slip, accuracy);
+  EXPECT_NEAR(course[3].slip, course[0].slip, accuracy);
+  for (const int slides : {2, 3}) {
+    EXPECT_GT(course[slides].energies.friction, 1.1 * course[slides - 1].energies.friction);
+    const auto& [elastic, dissipated, work, rubbed] = course[slides].energies;
+    EXPECT_NEAR(work, elastic + rubbed, 1e-4 * elastic);
   }
 }
 
@@ -193,8 +258,9 @@ TEST(ClosedCrack, CarriesAndReturnsToItsPath) {
   EXPECT_EQ(broken[12], broken[4]);
   EXPECT_NEAR(energies[8].elastic, whole.body.energies().elastic, 0.05 * whole.body.energies().elastic);
   for (const int pressed : {7, 8}) {  // nothing breaks any more, and no energy is lost
-    const auto& [elastic, dissipated, work] = energies[pressed];
+    const auto& [elastic, dissipated, work, friction] = energies[pressed];
     EXPECT_EQ(dissipated, energies[4].dissipated);
+    EXPECT_EQ(friction, 0.);
     EXPECT_NEAR(work - elastic, energies[4].external_work - energies[4].elastic, 1e-6 * elastic);
   }
   EXPECT_NEAR(energies[12].elastic, energies[4].elastic, 1e-6 * energies[4].elastic);

@@ -31,12 +31,11 @@ void declare(const input::Section& section, Peridynamics& peridynamics, model::N
       "l [length] in the micromodulus, below the horizon. A third of the element size is a good choice; with a fifth, "
       "as in WHL19, cracks are held up between elements, by 30 %. From a ninth of the horizon on, the horizon cuts the "
       "micromodulus off: the body is too soft and the fracture energy falls short.");
-  section.choice(
-      "Crack Faces", peridynamics.crack_faces, crack_faces,
-      "What happens where a crack closes. \"Free\": its faces pass through each other (overlap in "
-      "history.csv). \"Contact\": they press on each other and slide without friction, which holds for small "
-      "sliding, and for pre-cracks and slits without width where the body is peridynamic on both sides: put "
-      "seeds along them.");
+  section.choice("Crack Faces", peridynamics.crack_faces, crack_faces,
+                 "What happens where a crack closes. \"Free\": its faces pass through each other (overlap in "
+                 "history.csv). \"Contact\": they press on each other and may slide, which holds for small "
+                 "sliding, and for pre-cracks and slits without width where the body is peridynamic on both sides: put "
+                 "seeds along them.");
   section.parameter("Friction Coefficient", peridynamics.friction, at_least(0.),
                     "Of crack faces in contact (Coulomb): the largest friction over the normal force [-].");
   section.parameter(
@@ -53,7 +52,8 @@ void check_peridynamics(const input::Values& section) {
   if (faces != nullptr && friction != nullptr && *friction > 0. && *faces != "Contact") {
     section.mistake("Friction Coefficient",
                     fmt::format("found {:.6g}; allowed with \"Crack Faces\" = \"{}\" is 0: faces rub where they press "
-                                "on each other", *friction, *faces));
+                                "on each other",
+                                *friction, *faces));
   }
   input::check_order(section, "Characteristic Length", "Horizon");
   const double *horizon = section.number("Horizon"), *length = section.number("Characteristic Length");

@@ -56,8 +56,8 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       profile_(profile),
       topology_(comm, mesh, topology_options(mesh, problem, options)),
       dirichlet_(*comm, mesh, problem.displacements),
-      system_(*comm, topology_, dirichlet_, problem.loads, elasticity(mesh, problem, options), system_options(options, problem.friction),
-              profile),
+      system_(*comm, topology_, dirichlet_, problem.loads, elasticity(mesh, problem, options),
+              system_options(options, problem.friction), profile),
       equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
                    options.tolerance, options.damage_tolerance);
@@ -208,9 +208,9 @@ void Body<dim>::follow_measure() {
 /// Where contact changes or faces slide, what is measured is not linear in the load factor.
 template <int dim>
 bool Body<dim>::is_measure_met() const {
-  if (problem_.crack_faces == discretization::CrackFaces::free) return true;
-  if (problem_.is_proportional && problem_.friction == 0.) return true;
-  return std::abs(measured() - prescribed_) <= options_.damage_tolerance * std::abs(prescribed_);
+  const bool always = problem_.is_proportional && problem_.friction == 0.;
+  return always || problem_.crack_faces == discretization::CrackFaces::free ||
+         std::abs(measured() - prescribed_) <= options_.damage_tolerance * std::abs(prescribed_);
 }
 
 /// How the displacement grows with the load factor, on all local degrees of freedom, [length].
@@ -280,10 +280,7 @@ void Body<dim>::accept_history() {
     topology_.accept_softening();
   }
   if (problem_.friction == 0.) return;
-  auto slips = system_.slips(displacement());
-  state_.energies.friction +=
-      base::sum(*comm_, operators::ContactForces<dim>::work_of_friction(topology_, slips));
-  topology_.accept_slips(std::move(slips));
+  state_.energies.friction += base::sum(*comm_, topology_.accept_slips(system_.slips(displacement())));
   system_.follow_slips();
 }
 
@@ -355,8 +352,8 @@ double Body<dim>::elastic_energy() const {
 template <int dim>
 Energies Body<dim>::energies() const {
   const double t = problem_.thickness;
-  const auto& [elastic, dissipated, work, friction] = state_.energies;
-  return {t * elastic_energy(), t * dissipated, t * work, t * friction};
+  const auto& spent = state_.energies;
+  return {t * elastic_energy(), t * spent.dissipated, t * spent.external_work, t * spent.friction};
 }
 
 template <int dim>

@@ -10,10 +10,11 @@ using base::Point;
 
 namespace {
 
+/// How far the faces had slid where a bond was, when that was last accepted.
 template <int dim>
-bonds::Slip<dim> accepted_slip(const discretization::Topology<dim>& topology, const bonds::BondEnds& ends) {
-  const auto found = topology.slips().find(ends);
-  return found == topology.slips().end() ? bonds::Slip<dim>() : found->second;
+Point<dim> accepted_slip(const discretization::Topology<dim>& topology, const bonds::Bond<dim>& bond) {
+  const auto found = topology.slips().find(bonds::ends_of(bond));
+  return found == topology.slips().end() ? Point<dim>::Zero() : found->second.distance;
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ template <int dim>
 void ContactForces<dim>::add(const bonds::Bond<dim>& bond) {
   if (model_.share_lost(bond) == 0.) return;
   const Point n = normals_.across(bond);
-  Contact contact{bond, bond.xi.dot(n) * n, 0., 0., accepted_slip(topology_, bonds::ends_of(bond)).distance};
+  Contact contact{bond, bond.xi.dot(n) * n, 0., 0., accepted_slip(topology_, bond)};
   set_stiffness(contact);
   if (model_.bonds.softens() && bond.id < model_.bonds.n_bonds()) place_of_[bond.id] = contacts_.size();
   contacts_.push_back(contact);
@@ -45,12 +46,13 @@ void ContactForces<dim>::set_stiffness(Contact& contact) const {
   const auto& bond = contact.bond;
   const auto mean = [](double one, double other) { return 0.5 * (one + other); };
   const double c0 = model_.bonds.materials().stiffness(bond.first_element, bond.second_element, bond.xi.norm());
-  const double lost = model_.share_lost(bond) * c0 * mean(model_.alpha(bond.first_point), model_.alpha(bond.second_point)) *
+  const double lost = model_.share_lost(bond) * c0 *
+                      mean(model_.alpha(bond.first_point), model_.alpha(bond.second_point)) *
                       model_.points.weight(bond.first_point) * model_.points.weight(bond.second_point);
   const double factor = mean(model_.elasticity.dilatation_factor(bond.first_element),
                              model_.elasticity.dilatation_factor(bond.second_element));
   contact.along_normal = lost * (1. + factor * 2. * (dim + 2.) / (3. * dim));
-  contact.along_faces = friction_ == 0. ? 0. : lost * contact.g.squaredNorm() / 3.;
+  contact.along_faces = friction_ == 0. ? 0. : lost * contact.g.squaredNorm();
 }
 
 /// eta
@@ -77,7 +79,8 @@ typename ContactForces<dim>::Response ContactForces<dim>::response(const Contact
   return response;
 }
 
-/// k g (x) g, and along the faces k_t where they stick; where they slide, across the friction as stiff as its size says.
+/// k g (x) g, and along the faces k_t where they stick; where they slide, across the friction as stiff as its size
+/// says.
 template <int dim>
 typename ContactForces<dim>::Block ContactForces<dim>::tangent(const Contact& contact, const Response& response) const {
   if (!response.is_closed) return Block::Zero();
@@ -149,9 +152,11 @@ std::vector<ContactSpring<dim>> ContactForces<dim>::closed(base::ConstField u) c
     const Point eta = opening(contact, u);
     const auto now = response(contact, eta);
     if (!now.is_closed) continue;
-    const double slid = now.friction.isZero(0.) ? 0. : 0.5 * now.friction.dot(now.sliding) -
-                                                          0.5 * now.friction.squaredNorm() / contact.along_faces;
-    springs.push_back({contact.bond, now.normal + now.friction, 0.5 * (now.normal + now.friction).dot(eta) - slid, slid});
+    const double slid = now.friction.isZero(0.) ? 0.
+                                                : 0.5 * now.friction.dot(now.sliding) -
+                                                      0.5 * now.friction.squaredNorm() / contact.along_faces;
+    springs.push_back(
+        {contact.bond, now.normal + now.friction, 0.5 * (now.normal + now.friction).dot(eta) - slid, slid});
   }
   return springs;
 }
@@ -181,19 +186,7 @@ bonds::Slips<dim> ContactForces<dim>::slips(base::ConstField u) const {
 
 template <int dim>
 void ContactForces<dim>::follow_slips() {
-  for (auto& contact : contacts_) contact.slip = accepted_slip(topology_, bonds::ends_of(contact.bond)).distance;
-}
-
-template <int dim>
-double ContactForces<dim>::work_of_friction(const discretization::Topology<dim>& topology,
-                                            const bonds::Slips<dim>& slips) {
-  double work = 0.;
-  for (const auto& [ends, now] : slips) {
-    if (ends.first_element >= topology.mesh().n_owned_elements || now.friction.isZero(0.)) continue;
-    const auto before = accepted_slip(topology, ends);
-    work += 0.5 * (before.friction + now.friction).dot(now.distance - before.distance);
-  }
-  return work;
+  for (auto& contact : contacts_) contact.slip = accepted_slip(topology_, contact.bond);
 }
 
 template <int dim>
@@ -234,10 +227,8 @@ void ContactForces<dim>::add_to(StiffnessMatrix<dim>& matrix, const std::vector<
   for (const auto& [i, by] : springs) {
     const auto& bond = contacts_[i].bond;
     if (!matrix.selects(bond.xi)) continue;
-    selected.push_back({{bond.first_element, bond.second_element},
-                        bond.first_end,
-                        bond.second_end,
-                        matrix.selection().scale * by});
+    selected.push_back(
+        {{bond.first_element, bond.second_element}, bond.first_end, bond.second_end, matrix.selection().scale * by});
   }
   add_springs(model_, selected, matrix, changed);
 }

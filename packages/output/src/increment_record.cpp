@@ -6,12 +6,14 @@ namespace {
 
 using Record = IncrementRecord;
 
-/// What the loads have done beyond what is stored and what breaking took: lost in brittle jumps.
-double jump_loss(const Record& r) { return r.energies.external_work - r.energies.elastic - r.energies.dissipated; }
+/// What the loads have done beyond what is stored and what breaking and friction took: lost in brittle jumps.
+double jump_loss(const Record& r) {
+  return r.energies.external_work - r.energies.elastic - r.energies.dissipated - r.energies.friction;
+}
 
 }  // namespace
 
-std::vector<Column> history_columns(const std::vector<Reaction>& reactions, bool is_measured) {
+std::vector<Column> history_columns(const std::vector<Reaction>& reactions, bool is_measured, bool rubs) {
   const auto count = [](base::GlobalId discretization::Counts::*which) {
     return [which](const Record& r) { return static_cast<double>(r.counts.*which); };
   };
@@ -35,6 +37,7 @@ std::vector<Column> history_columns(const std::vector<Reaction>& reactions, bool
       {"jump_loss", jump_loss},
       {"overlap", [](const Record& r) { return r.overlap; }},
   };
+  if (rubs) columns.push_back({"friction_energy", energy(&Energies::friction)});
   if (is_measured) columns.push_back({"measure", [](const Record& r) { return r.measured; }});
   const auto of_each = [&](const std::string& prefix, double Reaction::*which) {
     for (std::size_t i = 0; i < reactions.size(); ++i) {

@@ -38,12 +38,37 @@ class LooseAnchors {
   double scale_ = 1.;
 };
 
+/// Corrects u, and goes back along the correction where that leads too far: to about where the residual does no work on
+/// it any more. Springs that only push, or slide, may close and open in turn otherwise.
+/// @param residual at u, and then at the corrected one, whose norms are returned
+operators::NonlinearSystem::Norms correct(operators::NonlinearSystem& system, base::Field u,
+                                          operators::NonlinearSystem::Vector& residual,
+                                          const operators::NonlinearSystem::Vector& correction) {
+  constexpr int most_cuts = 10;
+  constexpr double far = 0.5;  // the work that holds it back, over that which drove it
+  const double driving = residual.dot(correction);
+  system.correct(u, correction);
+  auto norms = system.residual(residual);
+  double share = 1.;
+  for (int cut = 0; cut < most_cuts; ++cut) {
+    const double holding_back = -residual.dot(correction);
+    if (!(holding_back > far * driving)) break;
+    const double shorter = share * driving / (driving + holding_back);
+    operators::NonlinearSystem::Vector step(correction, Teuchos::Copy);
+    step.scale(shorter - share);
+    system.correct(u, step);
+    norms = system.residual(residual);
+    share = shorter;
+  }
+  return norms;
+}
+
 }  // namespace
 
 Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base::Field u, const BalanceTarget& target) {
   PERIMORPH_ASSERT(target.tolerance > 0. && target.force_scale >= 0., "tolerance {}, force scale {}", target.tolerance,
                    target.force_scale);
-  constexpr int max_corrections = 10;
+  constexpr int max_corrections = 30;  // contact that changes takes up to ten
   // A severed body has no reactions left that its residual could relate to: then these shares of the largest reaction
   // so far count, and of the largest that a first guess took, which moves the supports alone.
   constexpr double of_solution = 0.1, of_first_guess = 1e-4;
@@ -53,8 +78,8 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
   LooseAnchors anchors(system);
   Outcome outcome{false, 0, 0, ""};
   double last_residual = std::numeric_limits<double>::infinity();
+  auto norms = system.residual(residual);
   for (;;) {
-    const auto norms = system.residual(residual);
     if (!std::isfinite(norms.residual) || !std::isfinite(norms.reaction)) {
       outcome.trouble = "the forces are no finite numbers: loads, stiffness or lengths are too large";
       return outcome;
@@ -83,7 +108,7 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
       outcome.trouble = linear.trouble;
       return outcome;
     }
-    system.correct(u, correction);
+    norms = correct(system, u, residual, correction);
   }
 }
 

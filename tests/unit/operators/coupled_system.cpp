@@ -14,8 +14,10 @@ namespace {
 using Vector = Tpetra::Vector<double>;
 using discretization::CrackFaces;
 
+constexpr double sticky = 1e9;  // so much friction that nothing slides, where the tangent is exact
+
 /// Irregular elements with a zone and a pre-crack in it, pulled at a side and by a traction and a body force.
-class CoupledSystem : public testing::TestWithParam<std::tuple<operators::OperatorForm, double, CrackFaces>> {
+class CoupledSystem : public testing::TestWithParam<std::tuple<operators::OperatorForm, double, CrackFaces, double>> {
  protected:
   static constexpr double load_factor = 2.;
   CoupledBody body{[] {
@@ -35,7 +37,7 @@ class CoupledSystem : public testing::TestWithParam<std::tuple<operators::Operat
   std::vector<double> u;
 
   static operators::SystemOptions options() {
-    return {std::get<0>(GetParam()), operators::PreconditionerMatrix::short_range, 1.2};
+    return {std::get<0>(GetParam()), operators::PreconditionerMatrix::short_range, 1.2, std::get<3>(GetParam())};
   }
 
   void SetUp() override {
@@ -137,12 +139,14 @@ TEST_P(CoupledSystem, ForcesAfterABreakAreThoseOfAFreshEvaluation) {
   EXPECT_LT(error, 1e-6 * size);  // bonds in single precision
 }
 
+using operators::OperatorForm;
 INSTANTIATE_TEST_SUITE_P(Forms, CoupledSystem,
-                         testing::Values(std::tuple(operators::OperatorForm::crs, 1. / 3., CrackFaces::free),
-                                         std::tuple(operators::OperatorForm::matrix_free, 1. / 3., CrackFaces::free),
-                                         std::tuple(operators::OperatorForm::matrix_free, 0.2, CrackFaces::free),
-                                         std::tuple(operators::OperatorForm::crs, 1. / 3., CrackFaces::contact),
-                                         std::tuple(operators::OperatorForm::matrix_free, 0.2, CrackFaces::contact)));
+                         testing::Values(std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::free, 0.),
+                                         std::tuple(OperatorForm::matrix_free, 1. / 3., CrackFaces::free, 0.),
+                                         std::tuple(OperatorForm::matrix_free, 0.2, CrackFaces::free, 0.),
+                                         std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::contact, 0.),
+                                         std::tuple(OperatorForm::matrix_free, 0.2, CrackFaces::contact, 0.),
+                                         std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::contact, sticky)));
 
 }  // namespace
 }  // namespace perimorph::tests

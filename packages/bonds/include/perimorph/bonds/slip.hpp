@@ -33,4 +33,18 @@ struct Slip {
 template <int dim>
 using Slips = std::map<BondEnds, Slip<dim>>;
 
+/// What friction takes from one state of the slips to the next, by the mean of both frictions, [energy]. Local.
+/// @param n_owned_elements a slip counts on the rank that owns its first element
+template <int dim>
+double work_of_friction(const Slips<dim>& before, const Slips<dim>& after, int n_owned_elements) {
+  double work = 0.;
+  for (const auto& [ends, now] : after) {
+    if (ends.first_element >= n_owned_elements || now.friction.isZero(0.)) continue;
+    const auto found = before.find(ends);
+    const auto then = found == before.end() ? Slip<dim>() : found->second;
+    work += 0.5 * (then.friction + now.friction).dot(now.distance - then.distance);
+  }
+  return work;
+}
+
 }  // namespace perimorph::bonds

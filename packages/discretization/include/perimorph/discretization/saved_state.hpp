@@ -28,10 +28,10 @@ template <int dim>
 struct SavedState : History<dim> {
   static constexpr int values_per_element = dim << dim;  ///< as many corners as an element can have, dim values each
 
-  std::vector<BrokenBond> broken;    ///< bonds of which this rank owns the first element, as they broke
-  std::vector<SoftBond> softened;    ///< unbroken ones, likewise
+  std::vector<BrokenBond> broken;     ///< bonds of which this rank owns the first element, as they broke
+  std::vector<SoftBond> softened;     ///< unbroken ones, likewise
   std::vector<SavedSlip<dim>> slips;  ///< likewise
-  std::vector<double> displacement;  ///< of owned elements, (n_owned_elements, values_per_element), [length]
+  std::vector<double> displacement;   ///< of owned elements, (n_owned_elements, values_per_element), [length]
 };
 
 /// This rank's share of a state on the topology that follows from it. Local.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "perimorph/bonds/bond_families.hpp"
 #include "perimorph/bonds/bonds_across_faces.hpp"
@@ -77,8 +78,12 @@ class Topology {
   /// BondFamilies::accept_softening(). Local.
   void accept_softening() { bonds_.accept_softening(); }
 
-  /// How crack faces have slid by now. Local.
-  void accept_slips(bonds::Slips<dim> slips) { slips_ = std::move(slips); }
+  /// How crack faces have slid by now. Returns what friction has taken of this rank's since the last time, [energy].
+  /// Local.
+  double accept_slips(bonds::Slips<dim> slips) {
+    const auto before = std::exchange(slips_, std::move(slips));
+    return bonds::work_of_friction(before, slips_, mesh_.n_owned_elements);
+  }
 
   /// BondFamilies::restore_softening(). Local.
   void restore_softening(const bonds::SofteningHistories& histories) { bonds_.restore_softening(histories); }
@@ -91,7 +96,7 @@ class Topology {
   const bonds::BondFamilies<dim>& bonds() const { return bonds_; }
   CrackFaces crack_faces() const { return options_.crack_faces; }
   const std::vector<bonds::Bond<dim>>& bonds_across_faces() const { return bonds_across_faces_; }  ///< for contact
-  const bonds::Slips<dim>& slips() const { return slips_; }  ///< when they were last accepted
+  const bonds::Slips<dim>& slips() const { return slips_; }                        ///< when they were last accepted
   const HaloExchange& element_exchange() const { return element_exchange_; }       ///< of values of local elements
   const std::vector<morphing::ElementClass>& classes() const { return classes_; }  ///< per element, in the halo too
   const std::vector<char>& discontinuous() const { return discontinuous_; }  ///< per element, right in the halo too

@@ -48,7 +48,7 @@ struct Problem {
   std::vector<AutomaticSeed> automatic_seeds = {};
   Calibration calibration = Calibration::analytic;
   discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
-  double friction = 0.;  ///< coefficient, of crack faces in contact [-]
+  double friction = 0.;                               ///< coefficient, of crack faces in contact [-]
   std::map<std::string, int> material_of_block = {};  ///< place in the list, by the name of a block of the mesh
   std::vector<materials::Interface> interfaces = {};  ///< between any two of the materials
   std::vector<std::shared_ptr<const discretization::Amplitude>> amplitudes = {};  ///< that conditions refer to

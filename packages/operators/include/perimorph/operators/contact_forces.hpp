@@ -8,16 +8,16 @@
 
 namespace perimorph::operators {
 
-/// Contact of crack faces, for small sliding: what a crack has taken from a bond still resists closing. With the crack's
-/// unit normal n and g = (xi . n) n the two ends push each other apart by k (g . eta) g as long as g . eta < 0. The
-/// spring k is what the bond has lost, times (lambda + 2 mu) / (3 mu): under a strain along n it then carries what the
-/// whole body would. Its energy 1/2 Sum k min(0, g . eta)^2 has a continuous derivative, so that Newton's method with
-/// the springs that are closed as tangent finds the solution.
+/// Contact of crack faces, for small sliding: what a crack has taken from a bond still resists closing. With the
+/// crack's unit normal n and g = (xi . n) n the two ends push each other apart by k (g . eta) g as long as g . eta < 0.
+/// The spring k is what the bond has lost, times (lambda + 2 mu) / (3 mu): under a strain along n it then carries what
+/// the whole body would. Its energy 1/2 Sum k min(0, g . eta)^2 has a continuous derivative, so that Newton's method
+/// with the springs that are closed as tangent finds the solution.
 ///
-/// Friction (Coulomb): along the faces the ends are held by k_t (eta_t - s), k_t = (xi . n)^2 / 3 of what the bond has
-/// lost, which sheared faces carry in the whole body, and at most by the coefficient times the normal force. s is how
-/// far they have slid; a contact that opens forgets it. That the friction follows the normal force is left out of the
-/// tangent, which so stays symmetric (DECISIONS.md, 41).
+/// Friction (Coulomb): along the faces the ends are held by k_t (eta_t - s), k_t = (xi . n)^2 of what the bond has
+/// lost, and at most by the coefficient times the normal force. s is how far they have slid; a contact that opens
+/// forgets it. That friction follows the normal force is left out of the tangent, which so stays symmetric
+/// (DECISIONS.md, 41).
 template <int dim>
 class ContactForces : public ForceTerm<dim> {
  public:
@@ -46,20 +46,16 @@ class ContactForces : public ForceTerm<dim> {
   /// The topology has accepted others. Local.
   void follow_slips();
 
-  /// What friction has taken from the accepted slips of a topology to others, by the mean of the forces, [energy].
-  /// Local: of this rank's.
-  static double work_of_friction(const discretization::Topology<dim>& topology, const bonds::Slips<dim>& slips);
-
  private:
   using Point = base::Point<dim>;
   using Block = Eigen::Matrix<double, dim, dim>;
 
   struct Contact {
     bonds::Bond<dim> bond;
-    Point g;                             ///< (xi . n) n, [length]
-    double along_normal, along_faces;    ///< k, [force / length^3], and k_t, [force / length]
-    Point slip = Point::Zero();          ///< s, [length]
-    Block in_tangent = Block::Zero();    ///< that of the tangent as it is prepared, [force / length]
+    Point g;                           ///< (xi . n) n, [length]
+    double along_normal, along_faces;  ///< k, [force / length^3], and k_t, [force / length]
+    Point slip = Point::Zero();        ///< s, [length]
+    Block in_tangent = Block::Zero();  ///< that of the tangent as it is prepared, [force / length]
   };
   /// What a contact does at a displacement.
   struct Response {

@@ -28,6 +28,8 @@ struct Column {
 /// All of them, in the order in which they are written.
 /// @param reactions those that each record will have
 /// @param is_measured whether increments prescribe a measure
-std::vector<Column> history_columns(const std::vector<Reaction>& reactions, bool is_measured = false);
+/// @param rubs whether crack faces do
+std::vector<Column> history_columns(const std::vector<Reaction>& reactions, bool is_measured = false,
+                                    bool rubs = false);
 
 }  // namespace perimorph::output
