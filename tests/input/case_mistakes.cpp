@@ -195,6 +195,10 @@ INSTANTIATE_TEST_SUITE_P(
             R"xml(name="Characteristic Length" type="double" value="1.5")xml",
             R"xml(:12: /Peridynamics/Horizon: found 1.5; allowed is a number > "Characteristic Length", which is 1.5)xml"},
         Mistake{
+            "FrictionWithoutContact", horizon,
+            horizon + R"xml(/><Parameter name="Friction Coefficient" type="double" value="0.3")xml",
+            R"xml(/Peridynamics/Friction Coefficient: found 0.3; allowed with "Crack Faces" = "Free" is 0: faces rub)xml"},
+        Mistake{
             "GrowthRadii", R"xml(<ParameterList name="Seeds">)xml",
             R"xml(<Parameter name="Growth Inner Radius" type="double" value="5"/><ParameterList name="Seeds">)xml",
             R"xml(:15: /Morphing/Growth Outer Radius: found 4; allowed is a number > "Growth Inner Radius", which is 5)xml"},

@@ -188,6 +188,10 @@ class Restart(InThreeDimensions):
                       "Material/Fracture Energy": 2.0, "Material/Poisson's Ratio": 0.2},
         "measure": {"Loading/Control": "Measure", "Loading/Measure": {
             "Group": "upper", "Other Point": [1.0, 2.5, 1.0], "Direction": [0.0, 1.0, 0.0], "Rate": 0.1}},
+        "contact": {"Peridynamics/Crack Faces": "Contact", "Peridynamics/Friction Coefficient": 0.3, "Loading/Steps": {
+            "pull": {"Increments": 4, "Conditions": ["pull down", "pull up"], "Values": [12.0, 12.0]},
+            "press": {"Increments": 6, "Conditions": ["pull down", "pull up"], "Values": [-4.0, -2.0]},
+            "further": {"Increments": 4, "Conditions": ["pull down", "pull up"], "Values": [14.0, 14.0]}}},
         "steps": {"Loading/Steps": {
             "pull": {"Increments": 4, "Cycles": 2, "Conditions": ["pull down", "pull up"], "Values": [12.0, 12.0]},
             "let go": {"Increments": 3, "Released": ["hold z"]},

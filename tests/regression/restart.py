@@ -257,6 +257,50 @@ class Cycles(GrowingCrack):
                       'here "/Loading/Steps/table/Tables/pull down: row 2 = 3, 16"', run.stderr)
 
 
+class Contact(GrowingCrack):
+    """A crack is pulled open, pressed together while one side slides along the other, and pulled again."""
+
+    STAGE = lambda increments, pull, slide: {"Increments": increments, "Conditions": ["pull down", "pull up", "slide"],
+                                             "Values": [pull, pull, slide]}
+    CASE = changed(GrowingCrack.CASE, {
+        "Peridynamics/Crack Faces": "Contact", "Peridynamics/Friction Coefficient": 0.3,
+        "Morphing/Seeds/mouth": {"Center": [1, 6], "Inner Radius": 4.0, "Outer Radius": 5.0},
+        "Boundary Conditions/Displacements/slide": {"Group": "upper", "Component": "x", "Rate": 0.01},
+        "Loading/Steps": {"pull": STAGE(5, 14.0, 0.0), "press": STAGE(5, -6.0, 8.0), "pull again": STAGE(6, 15.0, 0.0)}})
+    SOFT = {"Material/Critical Stretch": None, "Material/Bond Law": "Exponential", "Material/Tensile Strength": 25.0,
+            "Material/Fracture Energy": 4.0}
+    PRESSED = 9  # the row of the tenth increment
+
+    def column(self, name):
+        return [float(row[name]) for row in self.rows()]
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for changes, ranks, stop in [({}, 1, 4), ({}, 1, 8), ({}, 2, 9), ({}, 4, 13), (self.SOFT, 2, 8)]:
+            self.write_case(changes)
+            with self.subTest(ranks=ranks, stop=stop, changes=changes):
+                self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                friction = self.column("friction_energy")
+                self.assertEqual(friction[4], 0.0)
+                self.assertGreater(friction[self.PRESSED], 1e-5)
+                self.assert_continues(self.outcome(), stop, *EVERY, ranks=ranks)
+
+    def test_the_faces_stay_apart_on_any_number_of_ranks_and_the_energy_closes(self):
+        self.run_until(INCREMENTS, "--set", "Peridynamics/Crack Faces=Free", "--set", "Peridynamics/Friction Coefficient=0")
+        through = self.column("overlap")[self.PRESSED]
+        self.run_until(INCREMENTS)
+        alone = self.rows()
+        self.assertGreater(through, 0.1)
+        self.assertLess(self.column("overlap")[self.PRESSED], 0.1 * through)
+        lost = self.column("jump_loss")
+        self.assertAlmostEqual(lost[self.PRESSED], lost[4], delta=0.02 * self.column("elastic_energy")[self.PRESSED])
+        for ranks in [2, 4]:
+            self.run_until(INCREMENTS, ranks=ranks)
+            for row, other in zip(alone, self.rows(), strict=True):
+                self.assertEqual(row["broken_bonds"], other["broken_bonds"])
+                self.assertAlmostEqual(float(row["elastic_energy"]), float(other["elastic_energy"]), delta=1e-4)
+                self.assertAlmostEqual(float(row["friction_energy"]), float(other["friction_energy"]), delta=1e-4)
+
+
 class Released(GrowingCrack):
     """Pulled open against a clamp, which is then let go: the crack grows."""
 

@@ -14,7 +14,7 @@ struct Row {
   base::GlobalId broken;
   fracture::Energies energies;
   int solves;
-  double jump_loss() const { return energies.external_work - energies.elastic - energies.dissipated; }
+  double jump_loss() const { return energies.external_work - energies.elastic - energies.dissipated - energies.friction; }
 };
 
 class WatchedRun {

@@ -37,6 +37,7 @@ class Advice {
 
   std::vector<std::string> all() {
     check_density();
+    check_faces();
     if (input_.morphing.seeds.empty()) return std::move(lines_);
     check_length();
     check_horizon();
@@ -62,6 +63,11 @@ class Advice {
     const auto solids = solids_of(input_);
     if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.density > 0.; })) return;
     add("/Boundary Conditions/Self-Weight", "is zero; without it densities have no effect");
+  }
+
+  void check_faces() {
+    if (input_.peridynamics.crack_faces == discretization::CrackFaces::free || !input_.morphing.seeds.empty()) return;
+    add("/Peridynamics/Crack Faces", "\"Contact\" has no effect without a seed: only peridynamic faces press on each other");
   }
 
   void check_length() {

@@ -53,6 +53,14 @@ TEST(Advice, ADensityWithoutWeightHasNoEffect) {
   EXPECT_THAT(advice(input, 1.), IsEmpty());
 }
 
+TEST(Advice, ContactWithoutAZoneHasNoEffect) {
+  Case input = good();
+  input.peridynamics.crack_faces = discretization::CrackFaces::contact;
+  EXPECT_THAT(advice(input, 1.), IsEmpty());
+  input.morphing.seeds.clear();
+  EXPECT_THAT(advice(input, 1.), ElementsAre(StartsWith("/Peridynamics/Crack Faces: \"Contact\" has no effect")));
+}
+
 TEST(Advice, HasNothingToSayOfABodyWithoutZones) {
   Case input = good();
   input.morphing.seeds.clear();
