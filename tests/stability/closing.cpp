@@ -72,7 +72,8 @@ TEST_P(Closing, RubbleCarriesPressureToo) {
   run.expect_severed();
   run.advance(0.);
   run.advance(-0.02);
-  fmt::print("rubble {} of {} broken {} solves {}\n", run.rows.back().force, force_on_whole_bar(-0.02), run.rows.back().broken, run.rows.back().solves);
+  fmt::print("rubble {} of {} broken {} solves {}\n", run.rows.back().force, force_on_whole_bar(-0.02),
+             run.rows.back().broken, run.rows.back().solves);
   run.advance(0.);
   run.advance(0.2);
   run.expect_severed();

@@ -14,7 +14,9 @@ struct Row {
   base::GlobalId broken;
   fracture::Energies energies;
   int solves;
-  double jump_loss() const { return energies.external_work - energies.elastic - energies.dissipated - energies.friction; }
+  double jump_loss() const {
+    return energies.external_work - energies.elastic - energies.dissipated - energies.friction;
+  }
 };
 
 class WatchedRun {

@@ -67,7 +67,8 @@ class Advice {
 
   void check_faces() {
     if (input_.peridynamics.crack_faces == discretization::CrackFaces::free || !input_.morphing.seeds.empty()) return;
-    add("/Peridynamics/Crack Faces", "\"Contact\" has no effect without a seed: only peridynamic faces press on each other");
+    add("/Peridynamics/Crack Faces",
+        "\"Contact\" has no effect without a seed: only peridynamic faces press on each other");
   }
 
   void check_length() {

@@ -152,8 +152,8 @@ void Body<dim>::solve(Accuracy accuracy) {
     follow_measure();
     balance(accuracy);
   }
-  state_.energies.external_work +=
-      base::sum(*comm_, work_.up_to(displacement(), system_.internal_force(), system_.loads(), power_of_supports()));
+  state_.energies.external_work += base::sum(
+      *comm_, work_.up_to(displacement(), system_.internal_force(), system_.loads(), power_of_supports(), taken_up()));
 }
 
 template <int dim>
@@ -282,6 +282,7 @@ void Body<dim>::accept_history() {
   if (problem_.friction == 0.) return;
   state_.energies.friction += base::sum(*comm_, topology_.accept_slips(system_.slips(displacement())));
   system_.follow_slips();
+  renew_forces();
 }
 
 /// To all that is built from bonds.
@@ -338,15 +339,21 @@ template <int dim>
 void Body<dim>::renew_forces() {
   system_.apply_load(state_.load_factor);
   system_.evaluate(displacement());
-  work_.go_on_from(displacement(), system_.internal_force(), power_of_supports(), state_.load_step);
+  work_.go_on_from(displacement(), system_.internal_force(), power_of_supports(), state_.load_step, taken_up());
+}
+
+/// By this rank's share of the body since the slips were last accepted, where the load is prescribed and contact may
+/// change with it.
+template <int dim>
+std::optional<double> Body<dim>::taken_up() const {
+  if (measure_ || problem_.crack_faces == discretization::CrackFaces::free) return std::nullopt;
+  return system_.elastic_energy(displacement()) +
+         bonds::work_of_friction(topology_.slips(), system_.slips(displacement()), mesh().n_owned_elements);
 }
 
 template <int dim>
 double Body<dim>::elastic_energy() const {
-  const auto& force = system_.internal_force();
-  double elastic = 0.;
-  for (std::size_t i = 0; i < force.size(); ++i) elastic = std::fma(0.5 * force[i], state_.displacement[i], elastic);
-  return base::sum(*comm_, elastic - system_.slid_energy());
+  return base::sum(*comm_, system_.elastic_energy(displacement()));
 }
 
 template <int dim>

@@ -139,13 +139,17 @@ void CoupledSystem<dim>::follow_slips() {
   if (!contact_.is_null()) contact_->follow_slips();
 }
 
+/// 1/2 F . u but for what faces have slid.
 template <int dim>
-double CoupledSystem<dim>::slid_energy() const {
-  double sum = 0.;
-  for (const auto& contact : at_points_.contacts) {
-    if (contact.bond.first_element < topology_.mesh().n_owned_elements) sum += contact.slid_energy;
+double CoupledSystem<dim>::elastic_energy(base::ConstField u) const {
+  double elastic = 0.;
+  for (std::size_t i = 0; i < internal_.size(); ++i) {
+    elastic = std::fma(0.5 * internal_[i], u[static_cast<base::ConstField::size_type>(i)], elastic);
   }
-  return sum;
+  for (const auto& contact : at_points_.contacts) {
+    if (contact.bond.first_element < topology_.mesh().n_owned_elements) elastic -= contact.slid_energy;
+  }
+  return elastic;
 }
 
 template <int dim>

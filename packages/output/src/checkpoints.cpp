@@ -14,7 +14,7 @@ using base::GlobalId;
 
 namespace {
 
-constexpr GlobalId current_format = 5;
+constexpr GlobalId current_format = 6;
 constexpr int solves_between = 20;  // states within an increment from which it goes on to the last bit
 constexpr const char *format_name = "format", *case_name = "case";
 

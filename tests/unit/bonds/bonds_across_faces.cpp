@@ -26,8 +26,8 @@ Ends ends_of_all(const mesh::Mesh<2>& whole, const std::vector<Segment>& cracks)
 Ends ends_across(const mesh::Mesh<2>& whole, const std::vector<Segment>& cracks) {
   const BondedBody body(whole, horizon, 0.6, cracks);
   Ends ends;
-  for (const auto& bond : bonds::bonds_across_faces(body.mesh, body.points, mesh::active_elements(body.mesh), horizon,
-                                                    body.pre_cracks)) {
+  for (const auto& bond :
+       bonds::bonds_across_faces(body.mesh, body.points, mesh::active_elements(body.mesh), horizon, body.pre_cracks)) {
     EXPECT_TRUE(bond.is_broken);
     EXPECT_EQ(bond.xi, body.points.position(bond.second_point) - body.points.position(bond.first_point));
     ends.insert({body.points.global_id(bond.first_element, bond.first_end),
@@ -36,7 +36,8 @@ Ends ends_across(const mesh::Mesh<2>& whole, const std::vector<Segment>& cracks)
   return ends;
 }
 
-void expect_what_is_missing(const mesh::Mesh<2>& closed, const mesh::Mesh<2>& open, const std::vector<Segment>& cracks) {
+void expect_what_is_missing(const mesh::Mesh<2>& closed, const mesh::Mesh<2>& open,
+                            const std::vector<Segment>& cracks) {
   Ends missing;
   const auto there = ends_of_all(open, cracks);
   for (const auto& ends : ends_of_all(closed, {})) {

@@ -138,6 +138,7 @@ class Body {
   double power_of_supports() const;
   bool is_settled(const bonds::BondChange& change) const;
   double elastic_energy() const;
+  std::optional<double> taken_up() const;
   std::string reason_for(const std::string& trouble) const;
 };
 

@@ -17,7 +17,7 @@ namespace perimorph::operators {
 /// Friction (Coulomb): along the faces the ends are held by k_t (eta_t - s), k_t = (xi . n)^2 of what the bond has
 /// lost, and at most by the coefficient times the normal force. s is how far they have slid; a contact that opens
 /// forgets it. That friction follows the normal force is left out of the tangent, which so stays symmetric
-/// (DECISIONS.md, 41).
+/// (DECISIONS.md, 42).
 template <int dim>
 class ContactForces : public ForceTerm<dim> {
  public:

@@ -95,8 +95,8 @@ class CoupledSystem : public NonlinearSystem {
   /// How far crack faces have slid at a displacement; to be accepted by the topology, and then followed.
   bonds::Slips<dim> slips(base::ConstField u) const;
   void follow_slips();
-  /// What 1/2 F . u is more than the energy stored, on this rank, [energy].
-  double slid_energy() const;
+  /// Stored, on this rank, [energy].
+  double elastic_energy(base::ConstField u) const;
 
   const PointFields<dim>& at_points() const { return at_points_; }  ///< at the last evaluation
   const ForceTerms<dim>& terms() const { return terms_; }           ///< of the internal force

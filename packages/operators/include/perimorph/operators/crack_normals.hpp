@@ -11,7 +11,7 @@ namespace perimorph::operators {
 /// Directions across cracks, from the bonds that these have cut. Around each element it is the principal direction of
 /// Sum D w_x w_p xi (x) xi over the bonds of elements within a horizon, D being the share of a bond's stiffness that is
 /// lost: mostly of the longest bonds, so that a crack that follows the sides of elements in steps has the normal of its
-/// course (DECISIONS.md, 41). Of all ranks' bonds: the same bits on every rank.
+/// course (DECISIONS.md, 42). Of all ranks' bonds: the same bits on every rank.
 template <int dim>
 class CrackNormals {
  public:

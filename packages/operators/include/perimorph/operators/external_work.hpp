@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "perimorph/base/errors.hpp"
@@ -8,8 +9,9 @@
 namespace perimorph::operators {
 
 /// The work of all outer forces from one solution to the next. While the load rises no bond breaks and forces change
-/// linearly; at a fixed load only prescribed forces do work. What soft bonds give way by at a fixed load, they have
-/// given way by while it rose: the supports' work in its last step is put right. Displacements, [length], and forces,
+/// linearly, or it is known what the body takes up, where contact changes; at a fixed load only prescribed forces do
+/// work. What soft bonds give way by at a fixed load, they have given way by while it rose: the supports' work in its
+/// last step is put right. Displacements, [length], and forces,
 /// [force], are on owned degrees of freedom; those of a displacement may be followed by copies.
 class ExternalWork {
  public:
@@ -20,11 +22,13 @@ class ExternalWork {
   }
 
   /// Goes on from a solution whose forces are known, or with another numbering, whose forces are not.
-  /// @param power as for up_to(); @param step the last one, [-]
-  void go_on_from(base::ConstField u, std::vector<double> force, double power, double step) {
+  /// @param power, taken_up as for up_to(); @param step the last one, [-]
+  void go_on_from(base::ConstField u, std::vector<double> force, double power, double step,
+                  std::optional<double> taken_up) {
     go_on_from(u, std::move(force));
     last_power_ = power;
     step_ = step;
+    last_taken_up_ = taken_up;
   }
   void go_on_from(base::ConstField u, std::vector<double> force) {
     PERIMORPH_ASSERT(static_cast<std::size_t>(u.size()) >= force.size(), "{} displacements, {} forces", u.size(),
@@ -37,15 +41,20 @@ class ExternalWork {
   /// @param force of supports and loads together
   /// @param loads of the loads alone
   /// @param power of the supports over the load factor where bonds soften, 0 otherwise, [energy]
-  double up_to(base::ConstField u, const std::vector<double>& force, const std::vector<double>& loads, double power) {
+  /// @param taken_up by the body, as energy and by friction, where forces do not change linearly with the load,
+  /// [energy]
+  double up_to(base::ConstField u, const std::vector<double>& force, const std::vector<double>& loads, double power,
+               std::optional<double> taken_up) {
     PERIMORPH_ASSERT(force.size() == last_force_.size() && loads.size() == force.size(),
                      "{} forces, {} before, {} loads", force.size(), last_force_.size(), loads.size());
     double work = load_is_new_ ? 0. : 0.5 * (power - last_power_) * step_;
-    for (std::size_t i = 0; i < force.size(); ++i) {
+    const bool is_known = load_is_new_ && taken_up && last_taken_up_;
+    if (is_known) work = *taken_up - *last_taken_up_;
+    for (std::size_t i = 0; i < force.size() && !is_known; ++i) {
       work += (u[i] - last_u_[i]) * (load_is_new_ ? 0.5 * (last_force_[i] + force[i]) : loads[i]);
     }
     load_is_new_ = false;
-    go_on_from(u, force, power, step_);
+    go_on_from(u, force, power, step_, taken_up);
     return work;
   }
 
@@ -53,6 +62,7 @@ class ExternalWork {
   std::vector<double> last_u_, last_force_;
   bool load_is_new_ = false;
   double last_power_ = 0., step_ = 0.;
+  std::optional<double> last_taken_up_;
 };
 
 }  // namespace perimorph::operators
