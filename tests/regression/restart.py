@@ -280,8 +280,7 @@ class Contact(GrowingCrack):
             with self.subTest(ranks=ranks, stop=stop, changes=changes):
                 self.run_until(INCREMENTS, *EVERY, ranks=ranks)
                 friction = self.column("friction_energy")
-                self.assertEqual(friction[4], 0.0)
-                self.assertGreater(friction[self.PRESSED], 1e-5)
+                self.assertGreater(friction[self.PRESSED], friction[4] + 0.01)
                 self.assert_continues(self.outcome(), stop, *EVERY, ranks=ranks)
 
     def test_the_faces_stay_apart_on_any_number_of_ranks_and_the_energy_closes(self):
