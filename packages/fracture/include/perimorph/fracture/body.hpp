@@ -78,7 +78,7 @@ class Body {
   void restore(const discretization::SavedState<dim>& saved);
 
   /// What comes depends on the state only, and not on what the solver has done before, nor on the order in which bonds
-  /// have softened.
+  /// have softened, or contacts opened and closed.
   void forget_solves();
 
   /// After a solve: nor does it depend on the order in which forces have been summed up.
@@ -132,7 +132,7 @@ class Body {
   void publish(const bonds::BondChange& change);
   void balance(Accuracy accuracy);
   void follow_measure();
-  bool is_measure_met() const;
+  bool is_measure_missed(double far_off) const;
   void count(const solvers::Equilibrium::Outcome& outcome);
   std::vector<double> load_response();
   double power_of_supports() const;

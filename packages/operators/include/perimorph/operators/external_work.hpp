@@ -21,6 +21,8 @@ class ExternalWork {
     step_ = step;
   }
 
+  bool is_load_new() const { return load_is_new_; }
+
   /// Goes on from a solution whose forces are known, or with another numbering, whose forces are not.
   /// @param power, taken_up as for up_to(); @param step the last one, [-]
   void go_on_from(base::ConstField u, std::vector<double> force, double power, double step,
