@@ -66,16 +66,13 @@ TEST_P(Closing, ACrackThatIsPressedAndPulledAgainIsWhereItWas) {
   EXPECT_NEAR(again.force, cracked.force, 1e-6 * run.largest_force());
 }
 
-/// Where no bond is left, an equilibrium under pressure may not exist, or not be found.
+/// Where no bond is left, loose elements may bump into each other without end.
 TEST_P(Closing, RubbleCarriesPressureOrTheRunEndsInOrder) {
   Specimen specimen = bar({}, GetParam());
   specimen.critical_stretch = 1e-6;
   WatchedRun run(specimen, "right", 0);
-  run.advance(0.1);
-  run.expect_severed();
   try {
-    run.advance(0.);
-    run.advance(-0.02);
+    for (const double load : {0.1, 0., -0.02}) run.advance(load);
     EXPECT_LT(run.rows.back().force, 0.);
   } catch (const fracture::UnfinishedIncrement& unfinished) {
     EXPECT_THAT(unfinished.what(), testing::HasSubstr("the forces do not balance"));

@@ -154,9 +154,8 @@ void Body<dim>::solve(Accuracy accuracy) {
     balance(accuracy);
   }
   const auto now_taken_up = work_.is_load_new() ? taken_up() : std::nullopt;
-  state_.energies.external_work +=
-      base::sum(*comm_, work_.up_to(displacement(), system_.internal_force(), system_.loads(), power_of_supports(),
-                                    now_taken_up));
+  state_.energies.external_work += base::sum(*comm_, work_.up_to(displacement(), system_.internal_force(),
+                                                                 system_.loads(), power_of_supports(), now_taken_up));
 }
 
 template <int dim>

@@ -68,7 +68,7 @@ operators::NonlinearSystem::Norms correct(operators::NonlinearSystem& system, ba
 Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base::Field u, const BalanceTarget& target) {
   PERIMORPH_ASSERT(target.tolerance > 0. && target.force_scale >= 0., "tolerance {}, force scale {}", target.tolerance,
                    target.force_scale);
-  constexpr int max_corrections = 30;  // contact that changes takes up to ten
+  constexpr int max_corrections = 100;  // contact takes up to ten, in rubble far more
   // A severed body has no reactions left that its residual could relate to: then these shares of the largest reaction
   // so far count, and of the largest that a first guess took, which moves the supports alone.
   constexpr double of_solution = 0.1, of_first_guess = 1e-4;

@@ -14,26 +14,36 @@ namespace {
 using Ends = std::set<std::pair<GlobalId, GlobalId>>;
 constexpr double horizon = 2.3;
 
+/// The mesh with a slit may be parted among the ranks in another way.
+Ends of_all_ranks(const Ends& own) {
+  std::vector<GlobalId> numbers;
+  for (const auto& [first, second] : own) numbers.insert(numbers.end(), {first, second});
+  const auto all = base::gather_on_all(*Tpetra::getDefaultComm(), numbers);
+  Ends ends;
+  for (std::size_t i = 0; i < all.size(); i += 2) ends.insert({all[i], all[i + 1]});
+  return ends;
+}
+
 /// Those of all pairs of elements.
 Ends ends_of_all(const mesh::Mesh<2>& whole, const std::vector<Segment>& cracks) {
   BondedBody body(whole, horizon, 0.6, cracks);
   body.grow({Zone<2>::everything()});
   Ends ends;
   body.for_each_bond([&](int pair, std::size_t b) { ends.insert(body.global_ends(pair, b)); });
-  return ends;
+  return of_all_ranks(ends);
 }
 
 Ends ends_across(const mesh::Mesh<2>& whole, const std::vector<Segment>& cracks) {
   const BondedBody body(whole, horizon, 0.6, cracks);
   Ends ends;
-  for (const auto& bond :
-       bonds::bonds_across_faces<2>(body.mesh, body.points, mesh::active_elements(body.mesh), horizon, body.pre_cracks)) {
+  for (const auto& bond : bonds::bonds_across_faces<2>(body.mesh, body.points, mesh::active_elements(body.mesh),
+                                                       horizon, body.pre_cracks)) {
     EXPECT_TRUE(bond.is_broken);
     EXPECT_EQ(bond.xi, body.points.position(bond.second_point) - body.points.position(bond.first_point));
     ends.insert({body.points.global_id(bond.first_element, bond.first_end),
                  body.points.global_id(bond.second_element, bond.second_end)});
   }
-  return ends;
+  return of_all_ranks(ends);
 }
 
 void expect_what_is_missing(const mesh::Mesh<2>& closed, const mesh::Mesh<2>& open,
@@ -44,7 +54,7 @@ void expect_what_is_missing(const mesh::Mesh<2>& closed, const mesh::Mesh<2>& op
     if (there.count(ends) == 0) missing.insert(ends);
   }
   EXPECT_EQ(ends_across(open, cracks), missing);
-  EXPECT_GT(base::sum(*Tpetra::getDefaultComm(), static_cast<GlobalId>(missing.size())), 100);
+  EXPECT_GT(missing.size(), 100u);
 }
 
 TEST(BondsAcrossFaces, AreThoseThatAPreCrackThroughElementsTakesAway) {

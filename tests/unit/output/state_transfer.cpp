@@ -21,7 +21,7 @@ SavedState<2> history() {
   state.load_factor = 1.5;
   state.load_step = 0.75;
   state.force_scale = 2.5;
-  state.energies = {0., 3.5, 4.5};
+  state.energies = {0., 3.5, 4.5, 5.5};
   state.counts.broken_bonds = 11;
   state.counts.damaged_elements = 12;
   state.counts.dgfe_elements = 13;
@@ -56,6 +56,7 @@ struct Parts {
     const GlobalId rank = comm->getRank();
     state.broken = {{rank, rank + 1, rank + 2}};
     state.softened = {{rank, rank + 10, {0.25, 0.5}}};
+    state.slips = {{rank, rank + 20, {0.1, 0.2, 0.3, 0.4}}};
     return output::gather_state(*comm, state, owned);
   }
 };
@@ -70,6 +71,9 @@ TEST(StateTransfer, GivesEachRankTheDisplacementOfItsElementsAndAllElse) {
   ASSERT_EQ(shared.softened.size(), shared.broken.size());
   EXPECT_EQ(shared.softened.back().second, parts.comm->getSize() + 9);
   EXPECT_THAT(shared.softened.back().largest_stretches, ElementsAre(0.25, 0.5));
+  ASSERT_EQ(shared.slips.size(), shared.broken.size());
+  EXPECT_EQ(shared.slips.back().second, parts.comm->getSize() + 19);
+  EXPECT_THAT(shared.slips.back().values, ElementsAre(0.1, 0.2, 0.3, 0.4));
   const auto expected = history();
   EXPECT_EQ(shared.load_factor, expected.load_factor);
   EXPECT_EQ(shared.load_step, expected.load_step);
@@ -88,13 +92,15 @@ TEST(StateTransfer, DataSetsHaveTheirOrder) {
     EXPECT_TRUE(gathered.numbers.empty());
     return;
   }
-  EXPECT_THAT(gathered.numbers.at("body"), ElementsAre(1.5, 0.75, 2.5, 3.5, 4.5));
+  EXPECT_THAT(gathered.numbers.at("body"), ElementsAre(1.5, 0.75, 2.5, 3.5, 4.5, 5.5));
   EXPECT_THAT(gathered.integers.at("body_counts"), ElementsAre(11, 12, 13, 14, 15, 16, 17, 18, 19));
   EXPECT_THAT(gathered.integers.at("flagged_elements"), ElementsAre(21, 1, 22, 2));
   EXPECT_THAT(gathered.numbers.at("flag_points"), ElementsAre(0.25, 0.5, 0.75, 1.));
   EXPECT_EQ(gathered.integers.at("broken_bonds").size(), 3u * parts.comm->getSize());
   EXPECT_EQ(gathered.integers.at("softened_bonds").size(), 2u * parts.comm->getSize());
   EXPECT_EQ(gathered.numbers.at("largest_stretches").size(), 2u * parts.comm->getSize());
+  EXPECT_EQ(gathered.integers.at("slips").size(), 2u * parts.comm->getSize());
+  EXPECT_EQ(gathered.numbers.at("slips_and_friction").size(), 4u * parts.comm->getSize());
   const auto& displacement = gathered.numbers.at("displacement");
   ASSERT_EQ(displacement.size(), 32u * SavedState<2>::values_per_element);
   EXPECT_EQ(displacement[5 * SavedState<2>::values_per_element + 3], value(5, 3));
