@@ -25,6 +25,7 @@ class CaseFile : public perimorph::fuzz::InputFile {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): by this name it is called
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Kokkos::ScopeGuard kokkos;
   static const CaseFile input;

@@ -24,6 +24,7 @@ void read(const std::string& file) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): by this name it is called
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const perimorph::fuzz::InputFile input(FUZZED_ENDING);
   const std::string& file = input.with(data, size);

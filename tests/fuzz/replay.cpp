@@ -14,6 +14,7 @@
 #include <random>
 #include <vector>
 
+// NOLINTNEXTLINE(readability-identifier-naming): as above
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 // The libraries below keep memory to the end; an allocation beyond 256 MB for inputs of some kilobytes is a finding.
