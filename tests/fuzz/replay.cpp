@@ -14,10 +14,11 @@
 #include <random>
 #include <vector>
 
-// NOLINTNEXTLINE(readability-identifier-naming): as above
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 // The libraries below keep memory to the end; an allocation beyond 256 MB for inputs of some kilobytes is a finding.
+// NOLINTNEXTLINE(readability-identifier-naming,bugprone-reserved-identifier): the sanitizer's name
 extern "C" const char* __asan_default_options() { return "detect_leaks=0:max_allocation_size_mb=256"; }
 
 namespace {
