@@ -50,11 +50,10 @@ class ExternalWork {
     PERIMORPH_ASSERT(force.size() == last_force_.size() && loads.size() == force.size(),
                      "{} forces, {} before, {} loads", force.size(), last_force_.size(), loads.size());
     double work = load_is_new_ ? 0. : 0.5 * (power - last_power_) * step_;
-    const bool is_known = load_is_new_ && taken_up && last_taken_up_;
-    if (is_known) work = *taken_up - *last_taken_up_;
-    for (std::size_t i = 0; i < force.size() && !is_known; ++i) {
+    for (std::size_t i = 0; i < force.size(); ++i) {
       work += (u[i] - last_u_[i]) * (load_is_new_ ? 0.5 * (last_force_[i] + force[i]) : loads[i]);
     }
+    if (load_is_new_ && taken_up && last_taken_up_) work = *taken_up - *last_taken_up_;
     load_is_new_ = false;
     go_on_from(u, force, power, step_, taken_up);
     return work;
