@@ -117,6 +117,15 @@ def until(condition, seconds=60):
     return True
 
 
+def page_in_browser(address, milliseconds):
+    """What a browser makes of a page, as HTML. @param milliseconds of the page's own time until then"""
+    with tempfile.TemporaryDirectory() as profile:
+        return subprocess.run(
+            ["timeout", "--kill-after=5", "100", "chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
+             f"--virtual-time-budget={milliseconds}", "--dump-dom", address],
+            capture_output=True, text=True, timeout=120).stdout
+
+
 class InFolder(unittest.TestCase):
     """A folder of its own for each test."""
 

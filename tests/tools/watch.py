@@ -25,7 +25,7 @@ import netCDF4
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import PERIMORPH, TOOLS, InFolder
+from fixture import PERIMORPH, TOOLS, InFolder, page_in_browser
 
 import sides
 
@@ -240,11 +240,7 @@ class Watch(InFolder):
     def test_a_browser_draws_the_curve(self):
         self.fill()
         address = self.watch()
-        with tempfile.TemporaryDirectory() as profile:
-            page = subprocess.run(
-                ["timeout", "--kill-after=5", "100", "chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
-                 "--virtual-time-budget=3000", "--dump-dom", address],
-                capture_output=True, text=True, timeout=120).stdout
+        page = page_in_browser(address, milliseconds=3000)
         self.assertIn("Increment 10 of 10, done.", page)
         curve = re.search(r'<svg id="force".*?<polyline points="([^"]*)"', page, re.DOTALL).group(1)
         self.assertEqual(len(curve.split()), 10)

@@ -20,18 +20,13 @@ BondFamilies<dim>::BondFamilies(const mesh::Mesh<dim>& mesh, const elements::Mat
       kept_(kept),
       softens_(materials.softens()),
       visibility_(mesh, pre_cracks),
+      balls_(mesh),
       searched_(mesh.n_elements(), 0),
       pairs_of_(mesh.n_elements()),
       family_volume_(points.size(), 0.),
       lost_volume_(points.size(), 0.),
       damaged_(mesh.n_elements(), 0) {
   check_arguments();
-  for (int e = 0; e < mesh.n_elements(); ++e) {
-    centroids_.push_back(mesh::centroid(mesh, e));
-    radii_.push_back(mesh::radius(mesh, e));
-    largest_radius_ = std::max(largest_radius_, radii_.back());
-  }
-  tree_ = std::make_unique<base::PointTree<dim>>(centroids_);
 }
 
 template <int dim>
@@ -48,12 +43,10 @@ void BondFamilies<dim>::extend(const std::vector<int>& elements) {
     PERIMORPH_ASSERT(mesh_.has_element(e), "element {} of {}", e, mesh_.n_elements());
     if (searched_[e]) continue;
     searched_[e] = 1;
-    const double reach = (1. + 1e-6) * (materials_.horizon() + radii_[e]);
-    const auto obstacles = visibility_.near(centroids_[e], reach);
-    for (const int f : tree_->within(centroids_[e], reach + largest_radius_)) {
+    const auto obstacles = visibility_.near(balls_.center(e), balls_.reach(e, materials_.horizon()));
+    for (const int f : balls_.in_reach(e, materials_.horizon())) {
       const bool already_paired = searched_[f] && f != e;
       if (already_paired || !(active_[e] || active_[f])) continue;
-      if ((centroids_[e] - centroids_[f]).norm() > reach + radii_[f]) continue;
       const bool in_order = mesh_.element_ids[e] <= mesh_.element_ids[f];
       add_pair(in_order ? e : f, in_order ? f : e, obstacles);
     }

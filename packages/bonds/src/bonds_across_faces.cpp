@@ -5,7 +5,7 @@
 #include <set>
 
 #include "perimorph/base/errors.hpp"
-#include "perimorph/base/point_tree.hpp"
+#include "perimorph/bonds/element_balls.hpp"
 #include "perimorph/bonds/visibility.hpp"
 #include "perimorph/mesh/shared_sides.hpp"
 
@@ -39,15 +39,13 @@ class Search {
  public:
   Search(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, double horizon,
          const BoundarySides& sides, const std::vector<mesh::CrackFacet<dim>>& pre_cracks)
-      : mesh_(mesh),
-        points_(points),
+      : points_(points),
         horizon_(horizon),
         faces_(mesh, sides.facing, pre_cracks),
         walls_(mesh, sides.outer, {}) {}
 
-  /// Turns to an element; returns whether there are faces in its reach.
-  bool start(int element, double reach) {
-    const auto center = mesh::centroid(mesh_, element);
+  /// Turns to the element with that centroid; returns whether there are faces in its reach.
+  bool start(const Point<dim>& center, double reach) {
     faces_in_reach_ = faces_.near(center, reach);
     if (faces_in_reach_.empty()) return false;
     walls_in_reach_ = walls_.near(center, reach);
@@ -76,7 +74,6 @@ class Search {
   }
 
  private:
-  const mesh::Mesh<dim>& mesh_;
   const elements::MaterialPoints<dim>& points_;
   double horizon_;
   Visibility<dim> faces_, walls_;
@@ -95,17 +92,10 @@ std::vector<Bond<dim>> bonds_across_faces(const mesh::Mesh<dim>& mesh, const ele
   const auto sides = sides_of_boundary(mesh);
   if (sides.facing.empty() && pre_cracks.empty()) return found;
   Search<dim> search(mesh, points, horizon, sides, pre_cracks);
-  std::vector<Point<dim>> centroids;
-  double largest_radius = 0.;
+  const ElementBalls<dim> balls(mesh);
   for (int e = 0; e < mesh.n_elements(); ++e) {
-    centroids.push_back(mesh::centroid(mesh, e));
-    largest_radius = std::max(largest_radius, mesh::radius(mesh, e));
-  }
-  const base::PointTree<dim> tree(centroids);
-  for (int e = 0; e < mesh.n_elements(); ++e) {
-    const double reach = (1. + 1e-6) * (horizon + mesh::radius(mesh, e));
-    if (!search.start(e, reach)) continue;
-    for (const int f : tree.within(centroids[e], reach + largest_radius)) {
+    if (!search.start(balls.center(e), balls.reach(e, horizon))) continue;
+    for (const int f : balls.in_reach(e, horizon)) {
       if (mesh.element_ids[e] < mesh.element_ids[f] && (active[e] || active[f])) search.add(e, f, found);
     }
   }

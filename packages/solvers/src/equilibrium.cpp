@@ -13,6 +13,8 @@ namespace perimorph::solvers {
 
 namespace {
 
+using Vector = operators::NonlinearSystem::Vector;
+
 /// The anchors of a tangent, which give way where they hold a piece back (DECISIONS.md, 21): a piece that hangs on
 /// bonds weaker than its anchors moves by little in each correction. By powers of two, so that they come back to the
 /// bit.
@@ -42,8 +44,8 @@ class LooseAnchors {
 /// it any more. Springs that only push, or slide, may close and open in turn otherwise.
 /// @param residual at u, and then at the corrected one, whose norms are returned
 operators::NonlinearSystem::Norms correct(operators::NonlinearSystem& system, base::Field u,
-                                          operators::NonlinearSystem::Vector& residual,
-                                          const operators::NonlinearSystem::Vector& correction) {
+                                          Vector& residual,
+                                          const Vector& correction) {
   constexpr int most_cuts = 10;
   constexpr double far = 0.5;  // the work that holds it back, over that which drove it
   const double driving = residual.dot(correction);
@@ -54,7 +56,7 @@ operators::NonlinearSystem::Norms correct(operators::NonlinearSystem& system, ba
     const double holding_back = -residual.dot(correction);
     if (!(holding_back > far * driving)) break;
     const double shorter = share * driving / (driving + holding_back);
-    operators::NonlinearSystem::Vector step(correction, Teuchos::Copy);
+    Vector step(correction, Teuchos::Copy);
     step.scale(shorter - share);
     system.correct(u, step);
     norms = system.residual(residual);
@@ -74,7 +76,7 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
   constexpr double of_solution = 0.1, of_first_guess = 1e-4;
   constexpr double slow = 0.5;  // a correction that leaves more of the residual
 
-  operators::NonlinearSystem::Vector residual(system.unknowns()), correction(system.unknowns());
+  Vector residual(system.unknowns()), correction(system.unknowns());
   LooseAnchors anchors(system);
   Outcome outcome{false, 0, 0, ""};
   double last_residual = std::numeric_limits<double>::infinity();
@@ -115,7 +117,7 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
 Equilibrium::Outcome Equilibrium::find_load_response(operators::NonlinearSystem& system, base::Field response,
                                                      double tolerance) {
   PERIMORPH_ASSERT(tolerance > 0., "tolerance {}", tolerance);
-  operators::NonlinearSystem::Vector force(system.unknowns()), change(system.unknowns());
+  Vector force(system.unknowns()), change(system.unknowns());
   system.load_derivative(force);
   const auto linear = solver_.solve(force, change, tolerance * force.norm2());
   if (linear.converged) system.expand_response(change, response);

@@ -6,6 +6,7 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/bonds/bond.hpp"
 #include "perimorph/bonds/bond_change.hpp"
+#include "perimorph/bonds/element_balls.hpp"
 #include "perimorph/bonds/visibility.hpp"
 #include "perimorph/materials/bond_materials.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
@@ -169,10 +170,7 @@ class BondFamilies {
   StiffnessStorage kept_;
   bool softens_;
   Visibility<dim> visibility_;
-  std::vector<base::Point<dim>> centroids_;
-  std::vector<double> radii_;
-  double largest_radius_ = 0.;
-  std::unique_ptr<base::PointTree<dim>> tree_;
+  ElementBalls<dim> balls_;
   std::vector<char> searched_;
 
   std::vector<ElementPair> pairs_;
