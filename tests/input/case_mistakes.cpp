@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"ParameterOfAnEntry", R"xml(<Parameter name="Group" type="string" value="left"/>)xml", "",
                 ":37: /Boundary Conditions/Displacements/hold/Group: missing; needed is the name of a group"},
         Mistake{"Component", R"xml(<Parameter name="Component" type="string" value="x"/>)xml", "",
-                R"xml(/hold/Component: missing; needed is "x" or "y" or "z")xml"},
+                R"xml(:37: /Boundary Conditions/Displacements/hold/Component: missing; needed is either it or a "Direction")xml"},
         Mistake{"Section", "<Parameter " + increments + "/>", "",
                 ":58: /Loading/Increments: missing; needed is a whole number >= 1"},
         Mistake{"Points", R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml", "",
@@ -241,7 +241,33 @@ INSTANTIATE_TEST_SUITE_P(
             ":32: /Pre-Cracks/slit/Points: found the point (5, 0) twice in a row; allowed are segments that have a"},
         Mistake{
             "ComponentZ", R"xml(value="x")xml", R"xml(value="z")xml",
-            R"xml(:39: /Boundary Conditions/Displacements/hold/Component: found "z"; allowed is "x" or "y" in two)xml"},
+            R"xml(:39: /Boundary Conditions/Displacements/hold/Component: found "z"; allowed is "x" or "y" or "rotation z" in two)xml"},
+        Mistake{"DirectionBesideComponent", R"xml(<Parameter name="Component" type="string" value="x"/>)xml",
+                R"xml(<Parameter name="Component" type="string" value="x"/>
+                   <Parameter name="Direction" type="Array(double)" value="{1, 1}"/>)xml",
+                R"xml(/hold/Direction: found beside "Component"; allowed is one of the two)xml"},
+        Mistake{"DirectionWithoutLength", R"xml(<Parameter name="Component" type="string" value="x"/>)xml",
+                R"xml(<Parameter name="Direction" type="Array(double)" value="{0, 0}"/>)xml",
+                "/hold/Direction: found {0, 0}; allowed is a direction, which has a length"},
+        Mistake{"DirectionOfThree", R"xml(<Parameter name="Component" type="string" value="x"/>)xml",
+                R"xml(<Parameter name="Direction" type="Array(double)" value="{1, 0, 1}"/>)xml",
+                "/hold/Direction: found {1, 0, 1}; allowed are 2 numbers, one per dimension"},
+        Mistake{"RotationOfNoRigidGroup", R"xml(value="x")xml", R"xml(value="rotation z")xml",
+                R"xml(/hold/Component: found "rotation z" of the group "left", which is no rigid body; allowed is it )xml"
+                R"xml(for groups of /Boundary Conditions/Rigid Groups with "Shared" = "Rigid Motion")xml"},
+        Mistake{"RigidGroupTwice", R"xml(<ParameterList name="Tractions">)xml",
+                R"xml(<ParameterList name="Rigid Groups">
+                     <ParameterList name="a"><Parameter name="Group" type="string" value="left"/></ParameterList>
+                     <ParameterList name="b"><Parameter name="Group" type="string" value="left"/></ParameterList>
+                   </ParameterList><ParameterList name="Tractions">)xml",
+                R"xml(/Boundary Conditions/Rigid Groups/b/Group: found "left" again; allowed is each group once)xml"},
+        Mistake{"CenterOfWhatDoesNotTurn", R"xml(<ParameterList name="Tractions">)xml",
+                R"xml(<ParameterList name="Rigid Groups"><ParameterList name="a">
+                     <Parameter name="Group" type="string" value="top"/>
+                     <Parameter name="Shared" type="string" value="y"/>
+                     <Parameter name="Center" type="Array(double)" value="{0, 0}"/>
+                   </ParameterList></ParameterList><ParameterList name="Tractions">)xml",
+                R"xml(/a/Center: found with "Shared" = "y", where it has no effect; allowed is it with "Rigid Motion")xml"},
         Mistake{
             "PrescribedTwice", R"xml(value="right"/>)xml", R"xml(value="left"/>)xml",
             R"xml(:43: /Boundary Conditions/Displacements/pull/Component: found the group "left" with "x" again; )xml"

@@ -197,6 +197,10 @@ class Restart(InThreeDimensions):
             "let go": {"Increments": 3, "Released": ["hold z"]},
             "further": {"Increments": 3, "Conditions": ["pull down", "pull up"], "Values": [14.0, 14.0]}}},
         "cut": {"Loading/Largest Break per Increment": 40},
+        "constraints": {
+            "Boundary Conditions/Rigid Groups/grip/Group": "right",
+            "Boundary Conditions/Displacements/no turn": {"Group": "right", "Component": "rotation y"},
+            "Boundary Conditions/Displacements/pull up": {"Group": "upper", "Direction": [0.2, 1.0, 0.0], "Rate": 0.05}},
     }
 
     def test_it_ends_with_the_same_bits(self):

@@ -257,6 +257,27 @@ class Cycles(GrowingCrack):
                       'here "/Loading/Steps/table/Tables/pull down: row 2 = 3, 16"', run.stderr)
 
 
+class Constraints(GrowingCrack):
+    """The right side is gripped by a block that may turn, and the upper corner pulled along a slanting line."""
+
+    CASE = changed(GrowingCrack.CASE, {
+        "Boundary Conditions/Rigid Groups/grip/Group": "right",
+        "Boundary Conditions/Displacements/pull up": {"Group": "upper", "Direction": [0.3, 1.0], "Rate": 0.06}})
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stop in [(1, 13), (2, 14), (4, 11)]:
+            with self.subTest(ranks=ranks, stop=stop):
+                self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                whole = self.outcome()
+                last = {name: float(value) for name, value in whole[0][-1].items()}
+                self.assertGreater(last["broken_bonds"], 100)
+                self.assertGreater(abs(last["displacement_right_rotation_z"]), 1e-3)
+                self.assertAlmostEqual(last["reaction_right_rotation_z"], 0, delta=1e-3 * abs(last["reaction_upper_y"]))
+                along = (0.3 * last["displacement_upper_x"] + last["displacement_upper_y"]) / 1.09**0.5
+                self.assertAlmostEqual(along, 0.06 * INCREMENTS, places=9)
+                self.assert_continues(whole, stop, *EVERY, ranks=ranks)
+
+
 class Contact(GrowingCrack):
     """A crack is pulled open, pressed together while one side slides along the other, and pulled again."""
 

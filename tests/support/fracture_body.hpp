@@ -48,6 +48,7 @@ struct SpecimenIn {
   std::optional<model::MeasureControl<dim>> control = {};
   discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
   double friction = 0.;  ///< coefficient
+  std::vector<discretization::RigidGroup> rigid_groups = {};
 };
 using Specimen = SpecimenIn<2>;
 
@@ -82,6 +83,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   problem.control = specimen.control;
   problem.crack_faces = specimen.crack_faces;
   problem.friction = specimen.friction;
+  problem.rigid_groups = specimen.rigid_groups;
   return problem;
 }
 

@@ -8,7 +8,6 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 import urllib.error
@@ -20,7 +19,7 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import N, TOOLS, Plate
+from fixture import N, TOOLS, Plate, page_in_browser
 
 import case_tables
 from case_data import CaseData
@@ -130,6 +129,18 @@ class WhatTheProgramSays(Preview):
         self.assertEqual(rows["hold"], ["upper", "u_x", "0"])
         self.assertEqual(case_tables.measure(data)[0][1], "displacement of group right less (0, 3), along (1, 0)")
         self.assertIn("0.1 in increment 10", case_tables.measure(data)[1][1])
+
+    def test_directions_and_rigid_groups(self):
+        data = self.data({"Boundary Conditions/Rigid Groups/grip/Group": "right",
+                          "Boundary Conditions/Displacements/turn": {"Group": "right", "Component": "rotation z", "Rate": 0.01},
+                          "Boundary Conditions/Displacements/pull up": {"Group": "upper", "Direction": [3.0, 4.0], "Rate": 0.1}})
+        rows = {row[0]: row[1:3] for row in case_tables.conditions(data)}
+        self.assertEqual((rows["turn"], rows["pull up"]), (["right", "φ_z"], ["upper", "u_d"]))
+        self.assertIn("along (0.6, 0.8)", case_tables.conditions(data)[-1][-1] + case_tables.conditions(data)[-2][-1])
+        drawn = Drawn(data)
+        self.assertIn("right, a rigid body", "\n".join(drawn.labels()))
+        directions = [(tip - tail) / numpy.linalg.norm(tip - tail) for tail, tip in drawn.arrows(MOVED)]
+        self.assertTrue(any(numpy.allclose(direction, [0.6, 0.8], atol=1e-9) for direction in directions))
 
     def test_body_materials_zones_and_cracks(self):
         data = self.data()
@@ -393,11 +404,7 @@ class Page(Preview):
         self.write_case(STAGES)
         address = self.serve()
         clicking, asked = self.clicking(address)
-        with tempfile.TemporaryDirectory() as profile:
-            page = subprocess.run(
-                ["timeout", "--kill-after=5", "100", "chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
-                 "--virtual-time-budget=10000", "--dump-dom", clicking],
-                capture_output=True, text=True, timeout=120).stdout
+        page = page_in_browser(clicking, milliseconds=10000)
         self.assertIn("Before its first increment.", page)
         self.assertRegex(page, r'<div id="run" hidden')
         for piece in ["own weight, to 2", "let go, to 11", "−9.81", "5 long", "12 x 12, plane stress"]:

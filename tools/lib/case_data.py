@@ -36,7 +36,8 @@ class Condition:
 
     def __init__(self, kind, name, entry, n_dimensions):
         self.kind, self.name, self.group = kind, name, entry.get("Group")
-        self.component = entry.get("Component")
+        self.component = entry.get("Component", -1)  # of displacements; 3 to 5 are rotations; -1: along a direction
+        self.along = entry.get("Direction")
         n_values = 1 if kind in ("Displacements", "Pressures") else n_dimensions
         self.values, self.largest = (entry[key].reshape(-1, n_values) for key in ("Values", "Largest"))
         self.n_stages, self.n_dimensions = entry["Stages"], n_dimensions
@@ -44,8 +45,16 @@ class Condition:
     @property
     def symbol(self):
         """What its values are called."""
-        return {"Displacements": f"u_{AXES[self.component or 0]}", "Tractions": "t", "Pressures": "p", "Body Force": "b",
+        moved = "u_d" if self.along is not None else ("u_" if self.component < 3 else "φ_") + AXES[self.component % 3]
+        return {"Displacements": moved, "Tractions": "t", "Pressures": "p", "Body Force": "b",
                 "Self-Weight": "g"}[self.kind]
+
+    @property
+    def axis(self):
+        """Along which a displacement is prescribed, of length 1; None for rotations, and other kinds."""
+        if self.kind != "Displacements" or self.component >= 3:
+            return None
+        return self.along if self.along is not None else numpy.eye(self.n_dimensions)[self.component]
 
     def value(self, stage):
         """That counts in a stage: at its end, or if that is zero the largest in it, or else the one before it."""
@@ -61,18 +70,20 @@ class Condition:
         return stage >= self.n_stages or (self.kind != "Displacements" and not self.value(stage).any())
 
     def direction(self, stage):
-        """Where it acts in a stage, of length 1; None for pressures, which follow the normal."""
+        """Where it acts in a stage, of length 1; None for pressures, which follow the normal, and rotations."""
         value = self.value(stage)
-        if self.kind == "Pressures":
-            return None
         if self.kind == "Displacements":
-            return numpy.sign(value[0]) * numpy.eye(self.n_dimensions)[self.component]
-        return of_length_one(value)
+            return None if self.axis is None else numpy.sign(value[0]) * self.axis
+        return None if self.kind == "Pressures" else of_length_one(value)
 
     def text(self, stage, follows_measure):
-        """Its value at the end of a stage, and the largest in it where that lies beyond both ends."""
+        """Its value at the end of a stage, and the largest in it where that lies beyond both ends; and its direction."""
         if stage >= self.n_stages:
             return "released"
+        along = "" if self.along is None else f" along {numbers_text(self.along)}"
+        return self.value_text(stage, follows_measure) + along
+
+    def value_text(self, stage, follows_measure):
         start, end, largest = self.values[stage], self.values[stage + 1], self.largest[stage]
         if not follows_measure:
             is_beyond = ((largest < numpy.minimum(start, end)) | (largest > numpy.maximum(start, end))).any()
@@ -99,6 +110,7 @@ class CaseData:
         self.conditions = [Condition(kind, name, entry, self.n_dimensions)
                            for kind, entries in self.table["Conditions"].items() for name, entry in entries.items()]
         self.follows_measure = bool(self.table["Measure"])
+        self.rigid = {entry["Group"]: entry["Shared"] for entry in self.table["Rigid Groups"].values()}
 
     @property
     def title(self):

@@ -10,7 +10,8 @@ from matplotlib.patches import Patch
 import case_tables
 from case_data import AXES, of_length_one
 from case_look import Hull, edges_of
-from case_symbols import (ABOVE, BODY_FORCE, COLOURS, FAINT, SUPPORT, Labels, across, arrow_ends, draw_arrow, draw_support, evenly)
+from case_symbols import (ABOVE, BODY_FORCE, COLOURS, FAINT, SUPPORT, Labels, across, arrow_ends, draw_arrow, draw_support, draw_turn,
+                          evenly)
 
 TINTS = ["#dfe6ee", "#f0dfc4", "#dcead6", "#ead9e8", "#e3e3d3", "#d5e8ea"]  # of materials
 CRACK, MEASURED, PROBE, MIXED = "#7a1010", "#0f7f7f", "#c98a1b", "#333333"
@@ -186,31 +187,38 @@ class GroupSymbols:
         look, spacing = self.drawing.look, 1.5 * self.drawing.symbol
         chosen = evenly(look.flat(self.places), spacing)
         self.clearly = dict(zip(chosen, self.drawing.as_seen(self.places[chosen])))
-        if len(self.held) == self.drawing.data.n_dimensions:
+        axes_held = [condition.axis for condition in self.held if condition.axis is not None]
+        if len(axes_held) == self.drawing.data.n_dimensions:
             for at in chosen:
                 self.fix(at)
         else:
-            for condition in self.held:
-                for at in self.places_along(condition.component, chosen):
-                    self.support(condition.component, at)
+            for axis in axes_held:
+                for at in self.places_along(axis, chosen):
+                    self.support(axis, at)
         for condition in self.loads:
-            self.arrows(condition, chosen)
-        return numpy.concatenate(self.drawn)
+            self.turn(condition) if condition.symbol.startswith("φ") else self.arrows(condition, chosen)
+        return numpy.concatenate([look.flat(self.places[chosen]), *self.drawn])
 
-    def places_along(self, component, chosen):
-        """Where a component is held along a side of the body rather than across it, its end says all."""
-        across_it = [at for at in chosen if abs(self.normals[at][component]) > 0.3]
-        return across_it or [min(chosen, key=lambda at: self.places[at][component])]
+    def places_along(self, axis, chosen):
+        """Where a body is held along a side rather than across it, its end says all."""
+        across_it = [at for at in chosen if abs(self.normals[at] @ axis) > 0.3]
+        return across_it or [min(chosen, key=lambda at: self.places[at] @ axis)]
+
+    def turn(self, condition):
+        """A rotation that is prescribed: an arc around the middle of the group."""
+        sense = numpy.sign(condition.value(self.stage)[0])
+        self.drawn.append(draw_turn(self.drawing.axes, self.drawing.look.flat(self.places.mean(axis=0)), self.drawing.symbol, sense,
+                                    COLOURS[condition.kind]))
 
     def fix(self, at):
         """Held in all directions."""
         normal = self.normals[at]
         axis = int(numpy.argmax(numpy.abs(normal))) if normal.any() else 1
-        self.support(axis, at, is_fixed=True)
+        self.support(numpy.eye(self.drawing.data.n_dimensions)[axis], at, is_fixed=True)
 
-    def support(self, component, at, is_fixed=False):
-        toward = 1.0 if self.normals[at][component] <= 0.05 else -1.0
-        direction = of_length_one(self.drawing.look.flat(toward * numpy.eye(self.drawing.data.n_dimensions)[component]))
+    def support(self, axis, at, is_fixed=False):
+        toward = 1.0 if self.normals[at] @ axis <= 0.05 else -1.0
+        direction = of_length_one(self.drawing.look.flat(toward * axis))
         tip = self.drawing.look.flat(self.places[at])
         self.drawn.append(draw_support(self.drawing.axes, tip, direction, self.drawing.symbol, is_fixed, self.clearly.get(at, 1.0)))
 
@@ -248,6 +256,14 @@ def value_lines(data, conditions, stage):
     return [f"{formula(c.symbol)} = {c.text(stage, data.follows_measure)}" for c in conditions]
 
 
+def group_text(data, group):
+    """Its name, and what its nodes share."""
+    shared = data.rigid.get(group)
+    if shared is None:
+        return escaped(group)
+    return f"{escaped(group)}, {'a rigid body' if shared == 'Rigid Motion' else 'one ' + formula(f'u_{shared}')}"
+
+
 def draw_group(drawing, labels, group, conditions, stage):
     """Symbols of a group; returns what its label needs: text, place, way out, colour."""
     held = [c for c in conditions if c.holds(stage)]
@@ -259,7 +275,7 @@ def draw_group(drawing, labels, group, conditions, stage):
     for points in symbols.drawn:
         labels.keep_free(points)
     out = drawing.look.flat(symbols.normals.sum(axis=0))
-    text = "\n".join([escaped(group), *value_lines(drawing.data, conditions, stage)])
+    text = "\n".join([group_text(drawing.data, group), *value_lines(drawing.data, conditions, stage)])
     colours = {COLOURS[load.kind] for load in loads} or {SUPPORT}
     colour = colours.pop() if len(colours) == 1 else MIXED
     anchor = drawing.look.flat(symbols.places.mean(axis=0))
@@ -358,7 +374,7 @@ def draw_other_groups(drawing, labels):
         points = drawing.look.flat(places)
         drawing.axes.plot(*points.T, ".", color="#999999", markersize=2, zorder=ABOVE - 1)
         out = drawing.look.flat(group_normals.sum(axis=0))
-        labels.put(escaped(group), points.mean(axis=0), out, "#777777")
+        labels.put(group_text(drawing.data, group), points.mean(axis=0), out, "#777777")
 
 
 def points_of_body(drawing):

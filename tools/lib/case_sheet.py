@@ -20,7 +20,7 @@ from sides import SIDES_2D, SIDES_3D, outer_sides, seen
 # Of the body in a drawing, inches: in a row with another one, or in one of its own.
 LARGEST, LONG = (5.0, 4.2), (8.6, 4.2)
 DPI = 130
-SYMBOLS = {"u_x", "u_y", "u_z", "t", "p", "b", "g", "E", "l", "f_t", "s_crit", "G_c"}
+SYMBOLS = {"u_x", "u_y", "u_z", "u_d", "φ_x", "φ_y", "φ_z", "t", "p", "b", "g", "E", "l", "f_t", "s_crit", "G_c"}
 
 
 def new_figure(width, height):

@@ -68,6 +68,15 @@ def draw_arrow(axes, tail, tip, colour, has_bar, alpha=1.0):
     return numpy.array([tail, tip])
 
 
+def draw_turn(axes, middle, size, sense, colour):
+    """Three quarters of a circle with an arrow at its end. Returns its points."""
+    angles = sense * numpy.linspace(0.25, 1.75, 40) * numpy.pi
+    points = middle + size * numpy.column_stack([numpy.cos(angles), numpy.sin(angles)])
+    axes.plot(*points.T, color=colour, linewidth=1.3, zorder=ABOVE)
+    draw_arrow(axes, points[-3], points[-1], colour, has_bar=False)
+    return points
+
+
 def arrow_ends(place, direction, normal, length):
     """Outside the body: it points at its place if it presses there, and away if it pulls; along a side it lies beside it."""
     slope = float(direction @ normal)

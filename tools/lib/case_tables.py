@@ -56,7 +56,9 @@ def crack_text(data, crack):
 def sizes(data):
     size, horizon = data.table["Element Size"], data.table["Horizon"]
     counts = ", ".join(f"{count} {name}" for name, count in data.class_counts().items() if count)
-    rows = [["body", f"{extents(data)}, {data.table['Elastic Model'].lower()}"], ["elements", f"{data.table['Elements']}: {counts}"],
+    thickness = data.table["Thickness"]
+    thick = f", {number(thickness)} thick" if thickness != 1 else ""
+    rows = [["body", f"{extents(data)}{thick}, {data.table['Elastic Model'].lower()}"], ["elements", f"{data.table['Elements']}: {counts}"],
             ["element size", f"{size:.3g} where cracks start"], ["horizon", f"{number(horizon)} = {horizon / size:.2g} elements"]]
     rows += [["zone" if place == 0 else "", zone_text(zone)] for place, zone in enumerate(data.table["Zones"].values())]
     rows += [[f"crack {name}", crack_text(data, crack)] for name, crack in data.table["Pre-Cracks"].items()]

@@ -78,7 +78,9 @@ class History:
         names = {path[len(section):].rpartition("/")[0] for path in parameters if path.startswith(section)}
         of = lambda name, what: parameters.get(f"{section}{name}/{what}", "0")
         moves = lambda name: float(of(name, "Rate")) != 0.0 or float(of(name, "Constant")) != 0.0
-        return {f"{of(name, 'Group')}_{of(name, 'Component')}" for name in names if moves(name)} if parameters else None
+        # Along a direction they may move along any axis.
+        along = lambda name: [of(name, "Component").replace(" ", "_")] if f"{section}{name}/Component" in parameters else "xyz"
+        return {f"{of(name, 'Group')}_{c}" for name in names if moves(name) for c in along(name)} if parameters else None
 
 
 def has_increments(folder):
@@ -112,7 +114,7 @@ def label(column):
     """reaction_top_y -> top, y"""
     for prefix in ("reaction_", "displacement_"):
         if column.startswith(prefix):
-            name, _, component = column[len(prefix):].rpartition("_")
+            name, _, component = column[len(prefix):].replace("_rotation_", "_rotation ").rpartition("_")
             return f"{name}, {component}"
     return column.replace("_", " ")
 

@@ -26,12 +26,10 @@ namespace {
 template <int dim>
 std::string largest_reaction(const base::Comm& comm, const cases::Case& input, const fracture::Body<dim>& body,
                              double factor) {
-  auto reactions = output::reactions_of<dim>(input.output.reactions);
+  auto reactions = output::reactions_of<dim>(input.output.reactions, input.boundary_conditions.rigid_groups);
   output::measure(comm, 1, body, reactions);
-  const auto largest = std::max_element(reactions.begin(), reactions.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.force) < std::abs(b.force);
-  });
-  if (largest == reactions.end()) return "";
+  const auto* largest = output::largest_force(reactions);
+  if (largest == nullptr) return "";
   return fmt::format(", reaction {} = {:.4g}", largest->column, factor * largest->force);
 }
 

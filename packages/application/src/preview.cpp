@@ -116,15 +116,24 @@ class Conditions {
 void put_conditions(const cases::Case& input, ParameterList& list) {
   const auto& all = input.boundary_conditions;
   Conditions conditions(input.loading, list);
-  for (const auto& d : all.displacements) {
+  for (const auto& d : cases::normalized(all.displacements)) {
     auto& one = conditions.put("Displacements", d.name, {d.value.rate}, {d.value.constant});
     one.set("Group", d.node_set);
-    one.set("Component", d.component);
+    if (d.component >= 0) one.set("Component", d.component);
+    if (!d.direction.empty()) one.set("Direction", Numbers(d.direction));
   }
   for (const auto& t : all.tractions) conditions.put("Tractions", t.name, t.rate, t.constant).set("Group", t.group);
   for (const auto& p : all.pressures) conditions.put("Pressures", p.name, {p.rate}, {p.constant}).set("Group", p.group);
   conditions.put_everywhere("Body Force", all.body_force_rate, all.body_force_constant);
   conditions.put_everywhere("Self-Weight", all.self_weight_rate, all.self_weight_constant);
+}
+
+void put_rigid_groups(const std::vector<discretization::RigidGroup>& groups, ParameterList& list) {
+  for (const auto& group : groups) {
+    auto& one = list.sublist(group.name);
+    one.set("Group", group.node_set);
+    one.set("Shared", cases::shared_by(group));
+  }
 }
 
 void put_toughness(const materials::Toughness& toughness, ParameterList& list) {
@@ -222,6 +231,7 @@ ParameterList table_of(const cases::Case& input, const model::Problem<dim>& prob
   table.set("Elements", static_cast<int>(mesh.n_global_elements));
   table.set("Element Size", element_size);
   table.set("Horizon", problem.horizon());
+  table.set("Thickness", problem.thickness);
   table.set("Elastic Model", input.resolved.sublist("Material").get<std::string>("Elastic Model"));
   put_materials(input, problem, table.sublist("Materials"));
   put_blocks(problem, mesh, table.sublist("Blocks"));
@@ -231,6 +241,7 @@ ParameterList table_of(const cases::Case& input, const model::Problem<dim>& prob
   put_stages(stages_of(input.loading), table.sublist("Stages"));
   put_conditions(input, table.sublist("Conditions"));
   put_measure(input.loading, table.sublist("Measure"));
+  put_rigid_groups(input.boundary_conditions.rigid_groups, table.sublist("Rigid Groups"));
   put_probes(input.output.probes, table.sublist("Probes"));
   return table;
 }

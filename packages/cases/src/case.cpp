@@ -66,7 +66,8 @@ void check(const Resolved& resolved, const std::string& folder, Mistakes& mistak
   check_morphing(root.sub("Morphing"), *dimension);
   for (const auto& crack : root.subs("Pre-Cracks")) check_pre_crack(crack, *dimension);
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);
-  check_solver(root.sub("Solver"), has_dilatation(root), softens(root));
+  check_solver(root.sub("Solver"), has_dilatation(root), softens(root),
+               !root.sub("Boundary Conditions").subs("Rigid Groups").empty());
   check_loading(root.sub("Loading"), *dimension, softens(root), breaks(root));
   check_steps(root, folder);
   check_output(root.sub("Output"), *dimension);
@@ -133,15 +134,19 @@ void complete_lengths(Case& input) {
   }
 }
 
-/// By default those of all groups with prescribed displacements.
+/// By default those of all groups with prescribed displacements, and that move as one.
 void complete_reactions(Case& input) {
   auto& reactions = input.output.reactions;
   if (!reactions.empty()) return;
-  for (const auto& displacement : input.boundary_conditions.displacements) {
-    if (std::find(reactions.begin(), reactions.end(), displacement.node_set) == reactions.end()) {
-      reactions.push_back(displacement.node_set);
+  const auto add = [&](const auto& conditions) {
+    for (const auto& one : conditions) {
+      if (std::find(reactions.begin(), reactions.end(), one.node_set) == reactions.end()) {
+        reactions.push_back(one.node_set);
+      }
     }
-  }
+  };
+  add(input.boundary_conditions.displacements);
+  add(input.boundary_conditions.rigid_groups);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class GroupChecks {
       : list_(list), lines_(lines), mesh_(whole), mistakes_(mistakes) {}
 
   void run() {
-    const auto is_held = check_conditions("Displacements", mesh_.node_sets, "nodes");
+    auto is_held = check_conditions("Displacements", mesh_.node_sets, "nodes");
+    is_held.merge(check_conditions("Rigid Groups", mesh_.node_sets, "nodes"));
     check_conditions("Tractions", mesh_.side_sets, "sides");
     check_conditions("Pressures", mesh_.side_sets, "sides");
     check_blocks();

@@ -50,8 +50,9 @@ class Checks {
 
   void run() {
     check_groups(input_.resolved, input_.lines, mesh_, mistakes_);
-    const bool are_supports_known = mistakes_.none_in(displacements_path);
+    const bool are_supports_known = mistakes_.none_in(displacements_path) && mistakes_.none_in(rigid_groups_path);
     check_contradictions();
+    check_group_conflicts();
     if (are_supports_known) check_free_motions(input_, mesh_, mistakes_);
     if (!mistakes_.none_in("/Mesh")) return;  // lengths may be wrong
     check_measured_points();
@@ -99,18 +100,30 @@ class Checks {
   // ---- contradictions ----
 
   void check_contradictions() {
-    const auto& conditions = input_.boundary_conditions.displacements;
+    const auto conditions = normalized(input_.boundary_conditions.displacements);
     std::map<std::pair<int, int>, std::vector<int>> nodes_of_pair;
-    for (const auto& [first, second, node] : discretization::contradictions(mesh_, conditions)) {
+    for (const auto& [first, second, node] :
+         discretization::contradictions(mesh_, conditions, input_.boundary_conditions.rigid_groups)) {
       nodes_of_pair[{first, second}].push_back(node);
     }
     for (const auto& [pair, nodes] : nodes_of_pair) {
       const auto &a = conditions[pair.first], &b = conditions[pair.second];
       add(fmt::format("{}/{}", displacements_path, b.name),
-          fmt::format("prescribes another {} displacement than {}/{} on {} that both groups have, the first at "
+          fmt::format("prescribes another {} than {}/{} on {} that both groups have, the first at "
                       "({:.6g}); allowed is one value per node",
-                      "xyz"[b.component], displacements_path, a.name, base::counted(nodes.size(), "node"),
+                      discretization::name_of_displacement(b), displacements_path, a.name, base::counted(nodes.size(), "node"),
                       fmt::join(mesh_.coordinates[nodes[0]].begin(), mesh_.coordinates[nodes[0]].end(), ", ")));
+    }
+  }
+
+  void check_group_conflicts() {
+    const auto& conditions = input_.boundary_conditions;
+    for (const auto& [group, other, node] :
+         discretization::group_conflicts(mesh_, conditions.rigid_groups, normalized(conditions.displacements))) {
+      add(fmt::format("{}/{}", rigid_groups_path, group),
+          fmt::format("has the node at ({:.6g}), and others perhaps, in common with the {}, which moves it otherwise; "
+                      "allowed are nodes of its own",
+                      fmt::join(mesh_.coordinates[node], ", "), other));
     }
   }
 

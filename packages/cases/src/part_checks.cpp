@@ -8,6 +8,7 @@
 #include <set>
 
 #include "body_parts.hpp"
+#include "perimorph/base/disjoint_sets.hpp"
 #include "perimorph/base/point_tree.hpp"
 #include "perimorph/base/text.hpp"
 #include "perimorph/elements/reference_element.hpp"
@@ -34,21 +35,32 @@ class RigidMotions {
   explicit RigidMotions(std::vector<Eigen::AlignedBox<double, dim>> boxes)
       : boxes_(std::move(boxes)), sum_(Eigen::MatrixXd::Zero(n(), n())) {}
 
-  /// A support holds a component of a part's displacement at the point.
-  void hold(int part, const Point<dim>& point, int component) {
+  /// A support holds a part's displacement along a direction at the point.
+  void hold(int part, const Point<dim>& point, const Point<dim>& direction) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(n());
+    for (int component = 0; component < dim; ++component) add(row, direction[component], part, point, component);
+    is_oblique_ |= (direction.array() != 0.).count() > 1;
+    take(row);
+  }
+
+  /// Something holds a part's rotation, about the axis of that number in three dimensions.
+  void hold_rotation(int part, int axis) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(n());
+    row[part * n_motions + dim + (dim == 2 ? 0 : axis)] = 1.;
+    take(row);
+  }
+
+  /// Both parts move alike in a component, each at its point.
+  void join(int part, const Point<dim>& point, int other, const Point<dim>& other_point, int component) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(n());
     add(row, 1., part, point, component);
+    add(row, -1., other, other_point, component);
     take(row);
   }
 
   /// A hinge: both parts move alike there.
   void join(int part, int other, const Point<dim>& point) {
-    for (int component = 0; component < dim; ++component) {
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(n());
-      add(row, 1., part, point, component);
-      add(row, -1., other, point, component);
-      take(row);
-    }
+    for (int component = 0; component < dim; ++component) join(part, point, other, point, component);
   }
 
   /// What is free, in words ("translation in x, rotation"), or "". Of a single part.
@@ -63,7 +75,8 @@ class RigidMotions {
     const auto values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(sum_).eigenvalues();
     const int rank = static_cast<int>((values.array() > threshold()).count());
     const int n_others = n_motions - rank - static_cast<int>(names.size());
-    if (n_others > 0) names.emplace_back(n_others == 1 ? "rotation" : fmt::format("{} rotations", n_others));
+    const char* other = is_oblique_ ? "other motion" : "rotation";
+    if (n_others > 0) names.emplace_back(n_others == 1 ? other : fmt::format("{} {}s", n_others, other));
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
@@ -106,27 +119,39 @@ class RigidMotions {
   std::vector<Eigen::AlignedBox<double, dim>> boxes_;
   Eigen::MatrixXd sum_;
   long n_held_ = 0;
+  bool is_oblique_ = false;
 };
 
-/// The parts of a body, those that hinges join in one cluster, and what holds them.
+/// The parts of a body, those that hinges or rigid groups join in one cluster, and what holds them.
 template <int dim>
 class FreeMotions {
  public:
-  FreeMotions(const mesh::Mesh<dim>& mesh)
+  using Displacements = std::vector<discretization::PrescribedComponent>;
+  using RigidGroups = std::vector<discretization::RigidGroup>;
+
+  FreeMotions(const mesh::Mesh<dim>& mesh, const RigidGroups& groups)
       : mesh_(mesh),
+        groups_(groups),
         hinges_(mesh::hinges(mesh)),
         parts_(mesh, mesh::parts_of_elements(mesh, hinges_)),
+        part_at_(parts_at_nodes()),
         cluster_of_(parts_.count()) {
-    const auto clusters = hinges_.empty() ? std::vector<int>() : mesh::parts_of_elements(mesh);
-    for (int e = 0; e < mesh.n_elements(); ++e) {
-      const int part = parts_.of_element(e);
-      cluster_of_[part] = clusters.empty() ? part : clusters[e];
+    base::DisjointSets joined(parts_.count());
+    for (const auto& hinge : hinges_) {
+      for (const auto& group : hinge.groups) joined.join(part_at_[hinge.node], parts_.of_element(group[0]));
     }
-    for (int part = 0; part < parts_.count(); ++part) members_[cluster_of_[part]].push_back(part);
+    for (const auto& group : groups_) {
+      const auto& nodes = mesh_.node_sets.at(group.node_set);
+      for (const int node : nodes) joined.join(part_at_[nodes[0]], part_at_[node]);
+    }
+    for (int part = 0; part < parts_.count(); ++part) {
+      cluster_of_[part] = joined.lowest(part);
+      members_[cluster_of_[part]].push_back(part);
+    }
   }
 
   /// A line for each part, or each cluster, that can move.
-  std::vector<std::string> describe(const std::vector<discretization::PrescribedComponent>& displacements) const {
+  std::vector<std::string> describe(const Displacements& displacements) const {
     auto motions = held_by(displacements);
     std::vector<std::string> lines;
     for (const auto& [cluster, members] : members_) {
@@ -138,7 +163,7 @@ class FreeMotions {
         lines.push_back(fmt::format("{} can move as a whole: {}; prescribe displacements against it",
                                     parts_.name(members[0]), names));
       } else {
-        for (const int member : found->second.moving()) lines.push_back(describe_hinged(members[member]));
+        for (const int member : found->second.moving()) lines.push_back(describe_joined(members[member]));
       }
     }
     return lines;
@@ -146,16 +171,22 @@ class FreeMotions {
 
  private:
   const mesh::Mesh<dim>& mesh_;
+  const RigidGroups& groups_;
   std::vector<mesh::Hinge> hinges_;
   BodyParts<dim> parts_;
+  std::vector<int> part_at_;  ///< one of the parts that have a node
   std::vector<int> cluster_of_;
   std::map<int, std::vector<int>> members_;
 
-  std::string describe_hinged(int part) const {
+  std::string describe_joined(int part) const {
     const auto hinge = std::find_if(hinges_.begin(), hinges_.end(), [&](const mesh::Hinge& one) {
       return std::any_of(one.groups.begin(), one.groups.end(),
                          [&](const auto& group) { return parts_.of_element(group[0]) == part; });
     });
+    if (hinge == hinges_.end()) {
+      return fmt::format("{} can move, with what a rigid group joins it to; prescribe displacements against it",
+                         parts_.name(part));
+    }
     return fmt::format(
         "{} can move: it hangs on the rest by a hinge, the node at {}, where elements share no {}; prescribe "
         "displacements against it, or connect the parts by elements",
@@ -167,31 +198,41 @@ class FreeMotions {
     return static_cast<int>(std::lower_bound(members.begin(), members.end(), part) - members.begin());
   }
 
-  std::map<int, RigidMotions<dim>> held_by(
-      const std::vector<discretization::PrescribedComponent>& displacements) const {
-    std::map<int, RigidMotions<dim>> motions;
+  using Motions = std::map<int, RigidMotions<dim>>;  ///< by cluster
+
+  template <class Action>
+  void apply(Motions& motions, int part, Action action) const {
+    if (const auto found = motions.find(cluster_of_[part]); found != motions.end()) action(found->second);
+  }
+
+  Motions held_by(const Displacements& displacements) const {
+    Motions motions;
     for (const auto& [cluster, members] : members_) {
       if (members.size() > most_joined) continue;
       std::vector<Eigen::AlignedBox<double, dim>> boxes;
       for (const int part : members) boxes.push_back(parts_[part].box);
       motions.emplace(cluster, RigidMotions<dim>(std::move(boxes)));
     }
-    const auto apply = [&](int part, auto action) {
-      if (const auto found = motions.find(cluster_of_[part]); found != motions.end()) action(found->second);
-    };
-    const auto part_at = parts_at_nodes();
     for (const auto& d : displacements) {
+      const auto* group = moved_by(d, groups_);
+      if (group != nullptr && group->shared_component < 0) {
+        hold_group(motions, *group, d.component);
+        continue;
+      }
+      const auto direction = discretization::direction_of<dim>(d);
       for (const int node : mesh_.node_sets.at(d.node_set)) {
-        const int part = part_at[node];
-        apply(part, [&](auto& some) { some.hold(place_in_cluster(part), mesh_.coordinates[node], d.component); });
+        const int part = part_at_[node];
+        apply(motions, part,
+              [&](auto& some) { some.hold(place_in_cluster(part), mesh_.coordinates[node], direction); });
       }
     }
+    for (const auto& group : groups_) join_group(motions, group);
     for (const auto& hinge : hinges_) {
-      const int part = part_at[hinge.node];
+      const int part = part_at_[hinge.node];
       for (const auto& group : hinge.groups) {
         const int other = parts_.of_element(group[0]);
         if (other == part) continue;
-        apply(part, [&](auto& some) {
+        apply(motions, part, [&](auto& some) {
           some.join(place_in_cluster(part), place_in_cluster(other), mesh_.coordinates[hinge.node]);
         });
       }
@@ -199,7 +240,40 @@ class FreeMotions {
     return motions;
   }
 
-  /// One of the parts that have the node.
+  /// One of its motions is prescribed: that of the part which its first node is in.
+  void hold_group(Motions& motions, const discretization::RigidGroup& group, int component) const {
+    const auto& nodes = mesh_.node_sets.at(group.node_set);
+    const int part = part_at_[nodes[0]];
+    Point<dim> center = Point<dim>::Zero();
+    for (const int node : nodes) center += mesh_.coordinates[node] / static_cast<double>(nodes.size());
+    if (!group.center.empty()) center = Eigen::Map<const Point<dim>>(group.center.data());
+    apply(motions, part, [&](auto& some) {
+      if (component < dim) {
+        some.hold(place_in_cluster(part), center, Point<dim>::Unit(component));
+      } else {
+        some.hold_rotation(place_in_cluster(part), component - discretization::PrescribedComponent::first_rotation);
+      }
+    });
+  }
+
+  /// All parts that it has nodes in move with its first one; those that share a component at each node alike.
+  void join_group(Motions& motions, const discretization::RigidGroup& group) const {
+    const auto& nodes = mesh_.node_sets.at(group.node_set);
+    const int part = part_at_[nodes[0]];
+    const auto& first = mesh_.coordinates[nodes[0]];
+    for (const int node : nodes) {
+      const auto& x = mesh_.coordinates[node];
+      apply(motions, part, [&](auto& some) {
+        const int one = place_in_cluster(part), other = place_in_cluster(part_at_[node]);
+        if (group.shared_component >= 0) {
+          some.join(one, first, other, x, group.shared_component);
+        } else if (other != one) {
+          some.join(one, other, x);
+        }
+      });
+    }
+  }
+
   std::vector<int> parts_at_nodes() const {
     std::vector<int> part_at(mesh_.n_nodes(), 0);
     for (int e = mesh_.n_elements() - 1; e >= 0; --e) {
@@ -331,7 +405,9 @@ void describe_hinges(const mesh::Mesh<dim>& mesh, std::vector<std::string>& line
 
 template <int dim>
 void check_free_motions(const Case& input, const mesh::Mesh<dim>& whole, input::Mistakes& mistakes) {
-  const auto lines = FreeMotions<dim>(whole).describe(input.boundary_conditions.displacements);
+  const auto& conditions = input.boundary_conditions;
+  const auto lines =
+      FreeMotions<dim>(whole, conditions.rigid_groups).describe(normalized(conditions.displacements));
   const auto add = [&](const std::string& what) {
     mistakes.add(input::line_of(input.lines, displacements_path), displacements_path, what);
   };

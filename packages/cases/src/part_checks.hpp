@@ -10,6 +10,7 @@
 namespace perimorph::cases {
 
 inline constexpr const char* displacements_path = "/Boundary Conditions/Displacements";
+inline constexpr const char* rigid_groups_path = "/Boundary Conditions/Rigid Groups";
 
 /// Every part of the body is held against all rigid motions, also where parts hang on each other by hinges only. Local.
 /// @param whole opened along the pre-cracks; all groups of the displacements are in it

@@ -174,8 +174,9 @@ model::Problem<dim> make_problem(const Case& input) {
                               input.boundary_conditions.displacements,
                               make_loads<dim>(input, amplitudes),
                               input.loading.steps.empty() && input.boundary_conditions.are_proportional()};
-  for (auto& [name, set, component, value] : problem.displacements) {
-    value = amplitudes.ramp(name, value.rate, value.constant);
+  for (auto& one : problem.displacements) {
+    one.value = amplitudes.ramp(one.name, one.value.rate, one.value.constant);
+    one = normalized(std::move(one));
   }
   const auto is_common = [&](const auto& amplitude) { return *amplitude == *all.front(); };
   const auto& steps = input.loading.steps;
@@ -199,6 +200,7 @@ model::Problem<dim> make_problem(const Case& input) {
   problem.thickness = input.mesh.thickness.value_or(1.);
   problem.crack_faces = input.peridynamics.crack_faces;
   problem.friction = input.peridynamics.friction;
+  problem.rigid_groups = input.boundary_conditions.rigid_groups;
   for (const auto& seed : input.morphing.seeds) {
     if (seed.shape == SeedShape::automatic) {
       problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});

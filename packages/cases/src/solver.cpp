@@ -68,7 +68,7 @@ void declare(const input::Section& decisive, Solver& solver, model::NumericalOpt
       "are the program's.");
 }
 
-void check_solver(const input::Values& section, bool has_dilatation, bool softens) {
+void check_solver(const input::Values& section, bool has_dilatation, bool softens, bool has_rigid_groups) {
   const std::string* word = section.text("Operator");
   if (word == nullptr) return;
   const auto form = input::value_of(operator_forms, *word);
@@ -77,6 +77,11 @@ void check_solver(const input::Values& section, bool has_dilatation, bool soften
         "Operator",
         "found \"On-the-Fly\"; with bonds that soften allowed is \"Matrix-Free\" or \"CRS\": what each bond "
         "has left of its stiffness must be stored anyway");
+  }
+  if (has_rigid_groups && form == OperatorForm::crs) {
+    section.mistake("Operator",
+                    "found \"CRS\"; with rigid groups allowed is \"Matrix-Free\" or \"On-the-Fly\": each node of a "
+                    "group would be coupled to all that is around any other");
   }
   if (!has_dilatation || form != OperatorForm::crs) return;
   section.mistake(

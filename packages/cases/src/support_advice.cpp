@@ -97,7 +97,9 @@ template <int dim>
 std::vector<std::string> advice_on_supports(const Case& input, const mesh::Mesh<dim>& whole) {
   std::vector<std::string> lines;
   if (!can_break(input)) return lines;
-  for (const auto& one : input.boundary_conditions.displacements) {
+  for (const auto& one : normalized(input.boundary_conditions.displacements)) {
+    const bool is_along_axis = one.direction.empty() && one.component < dim;
+    if (!is_along_axis || moved_by(one, input.boundary_conditions.rigid_groups) != nullptr) continue;
     const auto stretch = Support<dim>(input, whole, one).stretch();
     if (stretch.isEmpty() || stretch.diagonal().norm() < input.peridynamics.horizon) continue;
     lines.push_back(fmt::format(

@@ -13,29 +13,59 @@ using base::Point;
 
 template <int dim>
 Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
-                          const std::vector<PrescribedComponent>& conditions)
+                          const std::vector<PrescribedComponent>& conditions, const std::vector<RigidGroup>& groups)
     : fixed_(mesh.n_nodes() * dim, 0), values_(mesh.n_nodes() * dim, Ramp<double>{0., 0.}) {
+  groups_ = group_motions(comm, mesh, groups, conditions);
   base::on_all_ranks(comm, [&] {
-    for (const auto& [first, second, node] : contradictions(mesh, conditions)) {
-      const auto& x = mesh.coordinates[node];
+    for (const auto& [first, second, node] : contradictions(mesh, conditions, groups)) {
       throw base::UserError(fmt::format(
-          "the displacements \"{}\" and \"{}\" prescribe different values for the {} component of the node at ({})",
-          conditions[first].name, conditions[second].name, "xyz"[conditions[second].component],
-          fmt::join(x.begin(), x.end(), ", ")));
+          "the displacements \"{}\" and \"{}\" prescribe different values for the {} of the node at ({})",
+          conditions[first].name, conditions[second].name, name_of_displacement(conditions[second]),
+          fmt::join(mesh.coordinates[node], ", ")));
     }
+    auto on_nodes = conditions;
+    on_nodes.erase(std::remove_if(on_nodes.begin(), on_nodes.end(),
+                                  [&](const auto& condition) { return moved_by(condition, groups) != nullptr; }),
+                   on_nodes.end());
+    for (const auto& condition : on_nodes) prescribe(mesh, condition);
+    gather_oblique(mesh, on_nodes);
     for (const auto& condition : conditions) {
-      PERIMORPH_ASSERT(condition.component >= 0 && condition.component < dim, "\"{}\" prescribes component {}",
-                       condition.name, condition.component);
-      for (const int node : mesh.node_sets.at(condition.node_set)) {
-        const int dof = node * dim + condition.component;
-        const double end = fixed_[dof] ? std::max(values_[dof].end, condition.value.end) : condition.value.end;
-        fixed_[dof] = 1;
-        values_[dof] = condition.value;
-        values_[dof].end = end;
-      }
       if (std::isfinite(condition.value.end)) ends_.push_back(condition.value.end);
     }
   });
+}
+
+template <int dim>
+void Dirichlet<dim>::prescribe(const mesh::Mesh<dim>& mesh, const PrescribedComponent& condition) {
+  if (!condition.direction.empty()) return;
+  PERIMORPH_ASSERT(condition.component >= 0 && condition.component < dim, "\"{}\" prescribes component {}",
+                   condition.name, condition.component);
+  for (const int node : mesh.node_sets.at(condition.node_set)) {
+    const int dof = node * dim + condition.component;
+    const double end = fixed_[dof] ? std::max(values_[dof].end, condition.value.end) : condition.value.end;
+    fixed_[dof] = 1;
+    values_[dof] = condition.value;
+    values_[dof].end = end;
+  }
+}
+
+/// What else is prescribed at those nodes counts among it.
+template <int dim>
+void Dirichlet<dim>::gather_oblique(const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions) {
+  for (const auto& condition : conditions) {
+    if (condition.direction.empty()) continue;
+    for (const int node : mesh.node_sets.at(condition.node_set)) oblique_[node];
+  }
+  for (const auto& condition : conditions) {
+    if (oblique_.empty()) return;
+    for (const int node : mesh.node_sets.at(condition.node_set)) {
+      const auto found = oblique_.find(node);
+      if (found != oblique_.end()) found->second.push_back({direction_of<dim>(condition), condition.value});
+    }
+  }
+  for (const auto& [node, along] : oblique_) {
+    std::fill_n(fixed_.begin() + static_cast<std::ptrdiff_t>(node) * dim, dim, 0);
+  }
 }
 
 template <int dim>

@@ -3,6 +3,7 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <iterator>
 
 #include "perimorph/base/errors.hpp"
 
@@ -12,14 +13,20 @@ template <int dim>
 Space<dim>::Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet)
     : dofs_(dofs),
       dirichlet_(dirichlet),
+      frames_(dofs, dirichlet),
+      groups_(dofs, dirichlet.groups(), dirichlet.load_factor()),
+      is_constrained_(static_cast<std::size_t>(dofs.n_nodes()) * dim, 0),
       owned_(Teuchos::rcp(new Vector(dofs.owned_dofs()))),
       all_(Teuchos::rcp(new Vector(dofs.all_dofs()))) {
-  for (int n = 0; n < dofs.n_nodes(); ++n) {
-    for (int c = 0; c < dim; ++c) {
-      fixed_.push_back(dirichlet.prescribes(dofs.reference_node(n), c));
-      if (fixed_.back() != 0) prescribed_.push_back(n * dim + c);
-    }
+  for (int dof = 0; dof < static_cast<int>(n_local()); ++dof) {
+    if (dirichlet.prescribes(dofs.reference_node(dof / dim), dof % dim)) along_axes_.push_back(dof);
   }
+  const auto in_frames = frames_.prescribed();
+  std::merge(along_axes_.begin(), along_axes_.end(), in_frames.begin(), in_frames.end(),
+             std::back_inserter(prescribed_));
+  const auto tied = groups_.dofs();
+  std::merge(prescribed_.begin(), prescribed_.end(), tied.begin(), tied.end(), std::back_inserter(constrained_));
+  for (const int dof : constrained_) is_constrained_[dof] = 1;
 }
 
 template <int dim>
@@ -33,7 +40,9 @@ void Space<dim>::expand(base::Field u, double load_factor) const {
   all_->doImport(*owned_, *dofs_.import(), Tpetra::INSERT);
   const auto all = all_->getLocalViewHost(Tpetra::Access::ReadOnly);
   std::copy_n(all.data(), n_local(), u.getRawPtr());
-  for (const int dof : prescribed_) u[dof] = ramp(dof).at(load_factor);
+  for (const int dof : along_axes_) u[dof] = ramp(dof).at(load_factor);
+  frames_.prescribe(u, load_factor);
+  groups_.prescribe(u, load_factor);
 }
 
 template <int dim>
@@ -41,14 +50,19 @@ base::ConstField Space<dim>::expand_change(const Vector& x) const {
   PERIMORPH_ASSERT(x.getLocalLength() == n_owned(), "{} values for {} unknowns", x.getLocalLength(), n_owned());
   all_->doImport(x, *dofs_.import(), Tpetra::INSERT);
   const auto all = all_->getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const int dof : prescribed_) all(dof, 0) = 0.;
-  return {all.data(), static_cast<base::ConstField::size_type>(n_local())};
+  const base::Field change(all.data(), static_cast<base::Field::size_type>(n_local()));
+  for (const int dof : prescribed_) change[dof] = 0.;
+  frames_.turn_back(change);
+  groups_.project(change);
+  return change;
 }
 
 template <int dim>
 std::vector<double> Space<dim>::prescribed_rates(double load_factor, double step) const {
   std::vector<double> rates(n_local(), 0.);
-  for (const int dof : prescribed_) rates[dof] = ramp(dof).rate_in(load_factor, step);
+  for (const int dof : along_axes_) rates[dof] = ramp(dof).rate_in(load_factor, step);
+  frames_.add_rates(base::field(rates), load_factor, step);
+  groups_.add_rates(base::field(rates), load_factor, step);
   return rates;
 }
 
@@ -56,8 +70,25 @@ template <int dim>
 void Space<dim>::restrict_forces(base::Field forces) const {
   const auto n = static_cast<std::size_t>(forces.size());
   PERIMORPH_ASSERT(n == n_local() || n == n_owned(), "{} forces for {} degrees of freedom", n, n_local());
+  frames_.turn(forces);
   for (const int dof : prescribed_) {
     if (dof < forces.size()) forces[dof] = 0.;
+  }
+  groups_.project(forces);
+}
+
+template <int dim>
+bool Space<dim>::is_held(int node, int component) const {
+  return std::binary_search(along_axes_.begin(), along_axes_.end(), node * dim + component) ||
+         frames_.decides(node, component) || groups_.decides(node, component);
+}
+
+template <int dim>
+void Space<dim>::turn(Tpetra::MultiVector<double>& vectors) const {
+  if (frames_.is_empty()) return;
+  const auto values = vectors.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t column = 0; column < values.extent(1); ++column) {
+    frames_.turn({&values(0, column), static_cast<base::Field::size_type>(n_owned())});
   }
 }
 

@@ -27,6 +27,9 @@ std::vector<char> held_nodes(const mesh::Mesh<dim>& mesh, const Problem<dim>& pr
   for (const auto& condition : problem.displacements) {
     for (const int node : mesh.node_sets.at(condition.node_set)) held[node] = 1;
   }
+  for (const auto& group : problem.rigid_groups) {
+    for (const int node : mesh.node_sets.at(group.node_set)) held[node] = 1;
+  }
   return held;
 }
 

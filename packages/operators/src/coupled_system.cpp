@@ -2,7 +2,9 @@
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/operators/broken_bonds.hpp"
@@ -171,16 +173,18 @@ NonlinearSystem::Norms CoupledSystem<dim>::residual(Vector& residual) const {
                    "residual of {} for {} degrees of freedom, evaluated: {}", residual.getLocalLength(),
                    space_->n_owned(), has_forces_);
   const auto values = residual.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  const base::Field unbalanced(values.data(), static_cast<base::Field::size_type>(space_->n_owned()));
+  const auto difference = [&](int dof) { return loads_[dof] - internal_[dof]; };
+  for (int dof = 0; dof < unbalanced.size(); ++dof) unbalanced[dof] = difference(dof);
+  space_->restrict_forces(unbalanced);
   std::vector<double> squares = {0., 0.};
-  for (int dof = 0; dof < static_cast<int>(space_->n_owned()); ++dof) {
-    const bool is_prescribed = space_->is_prescribed(dof);
-    const double difference = loads_[dof] - internal_[dof];
-    values(dof, 0) = is_prescribed ? 0. : difference;
-    squares[0] += values(dof, 0) * values(dof, 0);
-    squares[1] += loads_[dof] * loads_[dof] + (is_prescribed ? difference * difference : 0.);
+  for (int dof = 0; dof < unbalanced.size(); ++dof) {
+    const double all = difference(dof), free = unbalanced[dof];
+    squares[0] += free * free;
+    squares[1] += loads_[dof] * loads_[dof] + (all == free ? 0. : all * all - free * free);  // the constraints take it
   }
   base::sum(comm_, squares);
-  return {std::sqrt(squares[0]), std::sqrt(squares[1])};
+  return {std::sqrt(squares[0]), std::sqrt(std::max(0., squares[1]))};
 }
 
 template <int dim>
@@ -189,10 +193,8 @@ NonlinearSystem::Norms CoupledSystem<dim>::imbalance_after(const bonds::BondChan
   const double reaction = residual(now).reaction;
   std::vector<double> lost(space_->n_owned(), 0.);
   subtract_lost_forces(model(), change, at_points_, lost);
-  double squares = 0.;
-  for (int dof = 0; dof < static_cast<int>(lost.size()); ++dof) {
-    if (!space_->is_prescribed(dof)) squares += lost[dof] * lost[dof];
-  }
+  space_->restrict_forces(base::field(lost));
+  const double squares = std::inner_product(lost.begin(), lost.end(), lost.begin(), 0.);
   return {std::sqrt(base::sum(comm_, squares)), reaction};
 }
 
@@ -200,8 +202,8 @@ template <int dim>
 void CoupledSystem<dim>::correct(base::Field u, const Vector& correction) {
   PERIMORPH_ASSERT(correction.getLocalLength() == space_->n_owned(), "correction of {} for {} degrees of freedom",
                    correction.getLocalLength(), space_->n_owned());
-  const auto values = correction.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t dof = 0; dof < space_->n_owned(); ++dof) u[dof] += values(dof, 0);
+  const auto change = space_->expand_change(correction);
+  for (int dof = 0; dof < static_cast<int>(space_->n_owned()); ++dof) u[dof] += change[dof];
   space_->expand(u, load_factor_);
   evaluate(u);
 }

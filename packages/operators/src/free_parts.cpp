@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "perimorph/base/disjoint_sets.hpp"
 #include "perimorph/base/parallel.hpp"
@@ -28,11 +30,12 @@ struct FreePart {
   base::Point<dim> load;    ///< resultant, in the directions in which no node is held, [force]
 };
 
-/// What holds nodes together beside elements: all unbroken bonds but some, and contacts.
+/// What holds nodes together beside elements: all unbroken bonds but some, contacts, and groups that move as one.
 template <int dim>
 struct Ties {
   const std::vector<ContactSpring<dim>>& contacts;
-  std::vector<bonds::BondId> failing;  ///< ascending
+  std::vector<std::vector<int>> groups;  ///< local nodes of each
+  std::vector<bonds::BondId> failing;    ///< ascending
 };
 
 /// Local nodes that are held together, as far as this rank sees.
@@ -49,7 +52,22 @@ base::DisjointSets joined_nodes(const CoupledModel<dim>& model, const Ties<dim>&
     if (!bond.is_broken && !std::binary_search(ties.failing.begin(), ties.failing.end(), bond.id)) join(bond);
   });
   for (const auto& contact : ties.contacts) join(contact.bond);
+  for (const auto& group : ties.groups) {
+    for (const int node : group) joined.join(node, group[0]);
+  }
   return joined;
+}
+
+/// Gives all nodes of a group the lowest number that any of them has; returns whether that changes one here. Collective.
+bool join_groups(const base::Comm& comm, const std::vector<std::vector<int>>& groups, std::vector<GlobalId>& part) {
+  bool has_changed = false;
+  for (const auto& group : groups) {
+    GlobalId low = std::numeric_limits<GlobalId>::max();
+    for (const int node : group) low = std::min(low, part[node]);
+    low = -base::max(comm, -low);
+    for (const int node : group) has_changed |= std::exchange(part[node], low) != low;
+  }
+  return has_changed;
 }
 
 /// For each local node the lowest global node of its part. Collective.
@@ -77,6 +95,7 @@ std::vector<GlobalId> parts_of_nodes(const base::Comm& comm, const CoupledModel<
       if (now != part[n]) has_changed = 1;
       part[n] = now;
     }
+    if (join_groups(comm, ties.groups, part)) has_changed = 1;
     has_changed = base::max(comm, has_changed);
   }
   return part;
@@ -107,7 +126,7 @@ Share<dim> share_of(const CoupledModel<dim>& model, const discretization::Space<
   for (int c = 0; c < dim; ++c) {
     share.coordinates[c] = model.mesh.coordinates[model.dofs.reference_node(node)][c];
     share.load[c] = loads[node * dim + c];
-    share.held[c] = space.is_prescribed(node * dim + c) ? 1 : 0;
+    share.held[c] = space.is_held(node, c) ? 1 : 0;
   }
   return share;
 }
@@ -161,11 +180,11 @@ std::string what_is_free(const base::Comm& comm, const CoupledModel<dim>& model,
     return fmt::format("the part of {} of {} nodes around ({:.6g})", part.n_nodes, model.dofs.n_global_nodes(),
                        fmt::join(part.center, ", "));
   };
-  if (const auto free = free_parts<dim>(comm, model, space, loads, {contacts, {}}); !free.empty()) {
+  if (const auto free = free_parts<dim>(comm, model, space, loads, {contacts, space.groups().nodes(), {}}); !free.empty()) {
     return fmt::format("no equilibrium exists: {} is free, and a load of ({:.6g}) acts on it", description_of(free[0]),
                        fmt::join(free[0].load, ", "));
   }
-  const auto free = free_parts<dim>(comm, model, space, loads, {contacts, failing});
+  const auto free = free_parts<dim>(comm, model, space, loads, {contacts, space.groups().nodes(), failing});
   if (free.empty()) return "";
   return fmt::format(
       "no equilibrium was found: only bonds beyond the critical stretch hold {} against a load of ({:.6g})",

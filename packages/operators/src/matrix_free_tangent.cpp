@@ -28,6 +28,7 @@ void MatrixFreeTangent<dim>::apply(const MultiVector& x, MultiVector& y, Teuchos
     const auto change = space_.expand_change(*one);
     std::fill(forces_.begin(), forces_.end(), 0.);
     for (const auto& term : terms_) term->add_tangent_product(change, base::field(forces_));
+    space_.restrict_forces(base::field(forces_));
 
     const auto own_x = one->getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto own_y = y.getVectorNonConst(column)->getLocalViewHost(Tpetra::Access::ReadWrite);

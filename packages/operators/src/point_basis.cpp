@@ -19,7 +19,7 @@ bool is_suitable(const CoupledModel<dim>& model, const discretization::Space<dim
   const int* nodes = model.dofs.nodes_of(element);
   return std::none_of(nodes, nodes + n, [&](int node) {
     for (int c = 0; c < dim; ++c) {
-      if (space.is_prescribed(node * dim + c)) return true;
+      if (space.is_constrained(node * dim + c)) return true;
     }
     return false;
   });

@@ -45,6 +45,7 @@ StiffnessMatrix<dim>::StiffnessMatrix(const CoupledModel<dim>& model, const disc
                                       ForceTerms<dim> terms, const std::vector<double>& constraints,
                                       const BondSelection& selection, Teuchos::RCP<const PointBasis<dim>> basis)
     : model_(model),
+      space_(space),
       terms_(std::move(terms)),
       selection_(selection),
       basis_(std::move(basis)),
@@ -53,7 +54,7 @@ StiffnessMatrix<dim>::StiffnessMatrix(const CoupledModel<dim>& model, const disc
                    constraints.size(), space.n_owned());
   PERIMORPH_ASSERT(selection_.reach > 0. && selection_.scale > 0., "bonds up to {}, times {}", selection_.reach,
                    selection_.scale);
-  for (const int dof : space.prescribed()) free_[dof] = 0.;
+  for (const int dof : space.constrained()) free_[dof] = 0.;
   Couplings<dim> couplings;
   couplings.elements.resize(model.mesh.n_elements());
   couplings.nodes.resize(model.dofs.n_owned_nodes());
@@ -61,7 +62,7 @@ StiffnessMatrix<dim>::StiffnessMatrix(const CoupledModel<dim>& model, const disc
   find_pattern(couplings);
   make_matrix();
   for (const auto& term : terms_) term->add_to(*this);
-  for (const int dof : space.prescribed()) {
+  for (const int dof : space.constrained()) {
     if (static_cast<std::size_t>(dof) < space.n_owned()) add_diagonal(dof, constraints[dof]);
   }
 }
@@ -157,8 +158,10 @@ void StiffnessMatrix<dim>::make_matrix() {
 }
 
 template <int dim>
-void StiffnessMatrix<dim>::add_block(int row, int column, const Block& block) {
-  if (block.isZero(0.)) return;  // perhaps no entry either
+void StiffnessMatrix<dim>::add_block(int row, int column, const Block& of_nodes) {
+  if (of_nodes.isZero(0.)) return;  // perhaps no entry either
+  const Block block =
+      space_.frames().is_empty() ? of_nodes : space_.frames().between_unknowns(row, column, of_nodes);
   const int* begin = columns_.data() + first_[row];
   const int* end = columns_.data() + first_[row + 1];
   const std::size_t width = static_cast<std::size_t>(end - begin) * dim;

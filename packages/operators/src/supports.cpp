@@ -21,11 +21,9 @@ Supports<dim>::Supports(const CoupledModel<dim>& model, const discretization::Sp
       const int node = model.dofs.nodes_of(e)[k];
       if (node >= model.dofs.n_owned_nodes()) continue;
       for (int dof = node * dim; dof < (node + 1) * dim; ++dof) {
-        if (space.is_prescribed(dof)) {
-          constraints[dof] = std::max(constraints[dof], stiffness);
-        } else if (discontinuous[e]) {
-          anchors[dof] = anchor * stiffness;
-        }
+        if (space.is_constrained(dof)) constraints[dof] = std::max(constraints[dof], stiffness);
+        const bool may_move = !space.is_constrained(dof) || space.frames().has(node);
+        if (discontinuous[e] && may_move) anchors[dof] = anchor * stiffness;
       }
     }
   }

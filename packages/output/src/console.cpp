@@ -27,10 +27,9 @@ void Console::clear_progress() const {
 
 /// Chooses the reaction that the lines show, too: the one that is the largest at first.
 void Console::show_header(const std::vector<Reaction>& reactions) {
-  const auto is_smaller = [](const auto& a, const auto& b) { return std::abs(a.force) < std::abs(b.force); };
-  const auto largest = std::max_element(reactions.begin(), reactions.end(), is_smaller);
-  shown_reaction_ = largest - reactions.begin();
-  const std::string column = reactions.empty() ? "" : largest->column;
+  const auto* largest = largest_force(reactions);
+  shown_reaction_ = largest == nullptr ? 0 : largest - reactions.data();
+  const std::string column = largest == nullptr ? "" : largest->column;
   options_.log->info("{:>6} {:>9} {:>22} {:>12} {:>12} {:>8} {:>10} {:>7} {:>6} {:>9}", "step", "load",
                      "reaction " + column, "new broken", "all broken", "DGFE", "unknowns", "solves", "its", "seconds");
   has_shown_header_ = true;

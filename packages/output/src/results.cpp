@@ -31,9 +31,8 @@ std::vector<std::string> names_of(const std::vector<Column>& columns) {
 
 /// As they were at the end of an earlier run, if there was one.
 template <int dim>
-std::vector<Reaction> reactions_after(const std::vector<std::string>& groups,
-                                      const std::optional<ResultsState>& earlier) {
-  auto reactions = reactions_of<dim>(groups);
+std::vector<Reaction> reactions_after(const cases::Case& input, const std::optional<ResultsState>& earlier) {
+  auto reactions = reactions_of<dim>(input.output.reactions, input.boundary_conditions.rigid_groups);
   for (std::size_t i = 0; earlier && i < reactions.size(); ++i) {
     reactions[i].peak = earlier->peaks.at(i);
     reactions[i].peak_increment = static_cast<int>(earlier->peak_increments.at(i));
@@ -57,7 +56,7 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::C
       output_every_(input.output.every),
       last_increment_(input.loading.increments),
       totals_(earlier ? earlier->totals : Totals{}),
-      reactions_(reactions_after<dim>(input.output.reactions, earlier)),
+      reactions_(reactions_after<dim>(input, earlier)),
       columns_(history_columns(reactions_, input.loading.control == cases::Control::measure,
                                input.peridynamics.friction > 0.)),
       unfinished_{unfinished_file(folder, input.name), input.title, names_of(columns_), lines_of(input.resolved),

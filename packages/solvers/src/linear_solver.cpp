@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "perimorph/base/errors.hpp"
+#include "with_groups.hpp"
 
 namespace perimorph::solvers {
 
@@ -82,10 +83,17 @@ void LinearSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
   near_null_space_ = near_null_space;
   basis_ = basis;
   whole_matrix_ = std::move(whole_matrix);
+  groups_.reset();
+  with_groups_ = Teuchos::null;
   const bool can_move = from_old && !moved_ && condition_ == Condition::good && cycle_ == Cycle::fast;
   if (!can_move) return forget();
   moved_ = std::move(from_old);
   changed_nodes_.clear();
+}
+
+void LinearSolver::set_groups(GroupMotions groups) {
+  PERIMORPH_ASSERT(!operator_.is_null(), "groups of {} rows without an operator", groups.rows.size());
+  groups_ = std::move(groups);
 }
 
 void LinearSolver::forget() {
@@ -186,6 +194,8 @@ void LinearSolver::set_up(const std::function<void()>& work) {
 void LinearSolver::prepare() {
   const auto timer = profile_.measure(base::Phase::preconditioner);
   auto changed = std::exchange(changed_nodes_, {});
+  const bool is_kept = !moved_ && condition_ == Condition::good;
+  if (!is_kept) with_groups_ = Teuchos::null;
   if (const auto moved = std::exchange(moved_, std::nullopt)) {
     set_up([&] { multigrid_->move_to(preconditioner_matrix_, *moved); });
     refreshed_ = true;
@@ -214,6 +224,14 @@ LinearSolver::Outcome LinearSolver::iterate(const MultiVector& right_hand_side, 
   return outcome;
 }
 
+Teuchos::RCP<const Operator> LinearSolver::preconditioner() {
+  if (!with_groups_.is_null()) return with_groups_;
+  Teuchos::RCP<const Operator> inverse = multigrid_ ? multigrid_->apply_inverse() : factorization_->apply_inverse();
+  if (!basis_.is_null()) inverse = Teuchos::rcp(new InBasis(basis_, inverse));
+  if (groups_) inverse = with_groups_ = Teuchos::rcp(new WithGroups(*operator_, inverse, *groups_));
+  return inverse;
+}
+
 LinearSolver::Outcome LinearSolver::run_conjugate_gradients(const MultiVector& right_hand_side, MultiVector& solution,
                                                             double relative_tolerance) {
   using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
@@ -221,9 +239,7 @@ LinearSolver::Outcome LinearSolver::run_conjugate_gradients(const MultiVector& r
       Teuchos::rcp(new Problem(operator_, Teuchos::rcpFromRef(solution), Teuchos::rcpFromRef(right_hand_side)));
   problem->setInitResVec(Teuchos::rcpFromRef(right_hand_side));  // known, as the solution starts from zero
   problem->setProblem();                                         // would apply a preconditioner, to no purpose
-  Teuchos::RCP<const Operator> inverse = multigrid_ ? multigrid_->apply_inverse() : factorization_->apply_inverse();
-  if (!basis_.is_null()) inverse = Teuchos::rcp(new InBasis(basis_, inverse));
-  problem->setLeftPrec(inverse);
+  problem->setLeftPrec(preconditioner());
 
   const auto list = Teuchos::parameterList("Belos");
   list->set("Verbosity", static_cast<int>(Belos::Errors));

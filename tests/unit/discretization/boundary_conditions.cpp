@@ -89,8 +89,20 @@ TEST_P(BoundaryConditions, ALoadThatEndsIsGoneWithItsConstant) {
 
 TEST_P(BoundaryConditions, ContradictoryDisplacementsOfACommonNodeAreTheUsersMistakeOnAllRanks) {
   const std::string error = error_of({{"pull", "right", 1, {0.1, 0.}}, {"hold", "top", 1, {0., 0.}}});
-  EXPECT_THAT(error, AllOf(HasSubstr("\"pull\" and \"hold\" prescribe different values"), HasSubstr("the y component"),
+  EXPECT_THAT(error, AllOf(HasSubstr("\"pull\" and \"hold\" prescribe different values"), HasSubstr("the y displacement"),
                            HasSubstr("the node at (3, 2)")));
+}
+
+TEST_P(BoundaryConditions, DirectionsContradictOthersThatDecideThem) {
+  const PrescribedComponent x{"x", "top", 0, {0.1, 0.}}, y{"y", "top", 1, {0.3, 0.}};
+  const auto along = [](double cx, double cy, double rate) {
+    return PrescribedComponent{"along", "right", -1, {rate, 0.}, {cx, cy}};
+  };
+  EXPECT_EQ(error_of({x, along(0.6, 0.8, 7.)}), "");
+  EXPECT_EQ(error_of({x, along(-1., 0., -0.1)}), "");
+  EXPECT_EQ(error_of({x, y, along(0.6, 0.8, 0.3)}), "");
+  EXPECT_THAT(error_of({x, along(-1., 0., 0.1)}), HasSubstr("the displacement along (-1, 0) of the node at (3, 2)"));
+  EXPECT_THAT(error_of({x, y, along(0.6, 0.8, 7.)}), HasSubstr("\"x\" and \"along\" prescribe different values"));
 }
 
 TEST_P(BoundaryConditions, ADifferentConstantPartContradictsToo) {

@@ -37,7 +37,7 @@ TEST_F(Space, CopiesFromOwnersAndSetsWhatIsPrescribed) {
 
   for (int dof = 0; dof < static_cast<int>(space.n_local()); ++dof) {
     EXPECT_EQ(u[dof], is_pulled(dof) ? 3.5 : value(dof));
-    EXPECT_EQ(space.is_prescribed(dof), is_pulled(dof));
+    EXPECT_EQ(space.is_constrained(dof), is_pulled(dof));
   }
 }
 

@@ -24,7 +24,7 @@ IncrementRecord example() {
   record.energies = {10., 20., 35.};
   record.seconds = 8.;
   record.overlap = 9.;
-  record.reactions = output::reactions_of<2>({"top", "left"});
+  record.reactions = output::reactions_of<2>({"top", "left"}, {});
   for (std::size_t i = 0; i < record.reactions.size(); ++i) {
     record.reactions[i].force = 100. + static_cast<double>(i);
     record.reactions[i].displacement = 200. + static_cast<double>(i);

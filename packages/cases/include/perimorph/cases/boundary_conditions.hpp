@@ -23,7 +23,8 @@ struct Pressure {
 
 /// What holds the body and what loads it.
 struct BoundaryConditions {
-  std::vector<discretization::PrescribedComponent> displacements;
+  std::vector<discretization::PrescribedComponent> displacements;  ///< directions of any length
+  std::vector<discretization::RigidGroup> rigid_groups;
   std::vector<Traction> tractions;
   std::vector<Pressure> pressures;
   std::vector<double> body_force_rate, body_force_constant;    ///< (dim), [force / volume]
@@ -35,6 +36,13 @@ struct BoundaryConditions {
 
 void declare(const input::Section& section, BoundaryConditions& conditions);
 void check_boundary_conditions(const input::Values& section, int dimension);
+
+/// The condition with a direction of length 1, or along an axis with that component. Local.
+discretization::PrescribedComponent normalized(discretization::PrescribedComponent condition);
+std::vector<discretization::PrescribedComponent> normalized(std::vector<discretization::PrescribedComponent> conditions);
+
+/// What a rigid group's nodes have in common, in the words of the case file. Local.
+std::string shared_by(const discretization::RigidGroup& group);
 
 /// No numbers at all become zeros.
 void complete_boundary_conditions(Teuchos::ParameterList& values, int dimension);

@@ -17,6 +17,6 @@ struct Solver {
 void declare(const input::Section& decisive, Solver& solver, model::NumericalOptions& numerical);
 
 /// @param has_dilatation as the material says
-void check_solver(const input::Values& section, bool has_dilatation, bool softens);
+void check_solver(const input::Values& section, bool has_dilatation, bool softens, bool has_rigid_groups);
 
 }  // namespace perimorph::cases

@@ -45,11 +45,17 @@ struct Ramp {
     return step == 0. ? T(0. * rate) : T((at(load_factor) - at(load_factor - step)) / step);
   }
 
+  Ramp operator-() const { return {T(-rate), T(-constant), amplitude, end}; }
+
+  /// Whether both go by the same amplitude, or by the load factor.
+  bool has_course_of(const Ramp& other) const {
+    const bool are_both = amplitude != nullptr && other.amplitude != nullptr;
+    return are_both ? *amplitude == *other.amplitude : amplitude == other.amplitude;
+  }
+
   /// Whether both are the same while both hold.
   bool operator==(const Ramp& other) const {
-    const bool are_both = amplitude != nullptr && other.amplitude != nullptr;
-    return rate == other.rate && constant == other.constant &&
-           (are_both ? *amplitude == *other.amplitude : amplitude == other.amplitude);
+    return rate == other.rate && constant == other.constant && has_course_of(other);
   }
 };
 

@@ -7,28 +7,40 @@
 
 #include "perimorph/discretization/amplitude.hpp"
 #include "perimorph/discretization/dof_map.hpp"
+#include "perimorph/discretization/rigid_groups.hpp"
 #include "perimorph/elements/material_points.hpp"
 
 namespace perimorph::discretization {
 
-/// One displacement component, prescribed on a node set, [length].
+/// One component of the displacement, prescribed on a node set, [length]; of a rigid group also an angle, [rad].
 struct PrescribedComponent {
+  static constexpr int first_rotation = 3;  ///< about x; then about y and z
+
   std::string name, node_set;
-  int component;
-  Ramp<double> value;
+  int component = -1;  ///< -1: the one along a direction
+  Ramp<double> value = {0., 0.};
+  std::vector<double> direction = {};  ///< (dim), of length 1; empty: that of the component
 };
 
-/// A node of which two conditions prescribe one component differently.
+/// "x displacement", "displacement along (0.6, 0.8)", or "rotation about x". Local.
+std::string name_of_displacement(const PrescribedComponent& condition);
+
+/// Along which it prescribes the displacement, of length 1; it must not be a rotation. Local.
+template <int dim>
+base::Point<dim> direction_of(const PrescribedComponent& condition);
+
+/// A node whose displacement two conditions prescribe differently: the same component, or one that others have decided.
 struct Contradiction {
   int first, second;  ///< conditions, by their place in the list; the first is the first of all that prescribe it
   int node;           ///< local, of the reference mesh
 };
 
-/// All contradictions, in the order of the second condition. Conditions on node sets that the mesh does not have are
-/// left out. Local.
+/// All contradictions, in the order of the second condition. Conditions on node sets that the mesh does not have, and
+/// those that move rigid groups, are left out. Local.
 template <int dim>
 std::vector<Contradiction> contradictions(const mesh::Mesh<dim>& mesh,
-                                          const std::vector<PrescribedComponent>& conditions);
+                                          const std::vector<PrescribedComponent>& conditions,
+                                          const std::vector<RigidGroup>& groups = {});
 
 /// Force per area, prescribed on a side set, (dim), [stress].
 template <int dim>
@@ -52,23 +64,35 @@ struct SelfWeight {
 };
 
 /// Prescribed displacements by node of the reference mesh: every node of the topology that stands on it obeys them, up
-/// to the load factor at which they end.
+/// to the load factor at which they end. With the groups that move as one.
 template <int dim>
 class Dirichlet {
  public:
+  /// What is prescribed along a direction of length 1, [length].
+  struct Along {
+    base::Point<dim> direction;
+    Ramp<double> value;
+  };
+
   /// @throws UserError if two conditions contradict each other on a node. Collective.
-  Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions);
+  Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions,
+            const std::vector<RigidGroup>& groups = {});
 
   /// From now on this load factor holds; returns whether other components are prescribed than before, on any rank.
   /// Local, with the same answer on all ranks.
   bool apply_load(double load_factor);
 
-  /// Whether it does at the present load factor.
+  /// Whether it does at the present load factor, and no oblique direction besides.
   /// @param reference_node local node of the reference mesh, here and below
   bool prescribes(int reference_node, int component) const {
     PERIMORPH_DEBUG_ASSERT(component >= 0 && component < dim, "component {}", component);
     return fixed_[reference_node * dim + component] && load_factor_ <= ramp(reference_node, component).end;
   }
+  /// All that is prescribed at the nodes where that is so along directions that are oblique to the axes, by node; also
+  /// what has ended.
+  const std::map<int, std::vector<Along>>& oblique() const { return oblique_; }
+  const std::vector<GroupMotion<dim>>& groups() const { return groups_; }
+  double load_factor() const { return load_factor_; }  ///< the present one
   /// The displacement over the load factor, [length]; zero where none is prescribed.
   const Ramp<double>& ramp(int reference_node, int component) const {
     return values_[reference_node * dim + component];
@@ -77,8 +101,13 @@ class Dirichlet {
  private:
   std::vector<char> fixed_;
   std::vector<Ramp<double>> values_;
+  std::map<int, std::vector<Along>> oblique_;
+  std::vector<GroupMotion<dim>> groups_;
   std::vector<double> ends_;  ///< of the conditions that end, load factors
   double load_factor_ = 0.;
+
+  void prescribe(const mesh::Mesh<dim>& mesh, const PrescribedComponent& condition);
+  void gather_oblique(const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions);
 };
 
 /// Forces of tractions, pressures and body forces on the nodes of the current topology, consistent with the shape

@@ -1,40 +1,45 @@
 #pragma once
 
+#include <Tpetra_MultiVector_fwd.hpp>
 #include <Tpetra_Vector_fwd.hpp>
 #include <vector>
 
 #include "perimorph/base/field.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
+#include "perimorph/discretization/group_ties.hpp"
+#include "perimorph/discretization/node_frames.hpp"
 
 namespace perimorph::discretization {
 
 /// What turns the unknowns of a topology into displacements at all nodes of this rank, and forces on nodes back into
-/// forces on unknowns. So far unknowns are the displacements of owned nodes, copied to where other ranks need them, and
-/// some are prescribed. Fields on nodes are (n_nodes, dim), owned nodes first.
+/// forces on unknowns. Every degree of freedom is an unknown, by and large the displacement of an owned node along an
+/// axis, but for those that are constrained: prescribed, or one of a group's that moves as one. Fields on nodes are
+/// (n_nodes, dim), owned nodes first. What is collective says so; what else there is of groups and frames is local.
 template <int dim>
 class Space {
  public:
   using Vector = Tpetra::Vector<double>;
 
-  /// Local. The arguments must outlive this.
+  /// Collective. The arguments must outlive this.
   Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet);
 
   const DofMap<dim>& dofs() const { return dofs_; }
-  std::size_t n_local() const { return fixed_.size(); }  ///< degrees of freedom with copies
+  std::size_t n_local() const { return is_constrained_.size(); }  ///< degrees of freedom with copies
   std::size_t n_owned() const { return static_cast<std::size_t>(dofs_.n_owned_nodes()) * dim; }
-  bool is_prescribed(int dof) const {
+  bool is_constrained(int dof) const {
     PERIMORPH_DEBUG_ASSERT(dof >= 0 && dof < static_cast<int>(n_local()), "degree of freedom {} of {}", dof, n_local());
-    return fixed_[dof] != 0;
+    return is_constrained_[dof] != 0;
   }
-  const std::vector<int>& prescribed() const { return prescribed_; }  ///< local degrees of freedom, ascending
+  const std::vector<int>& constrained() const { return constrained_; }  ///< local degrees of freedom, ascending
+  const std::vector<int>& prescribed() const { return prescribed_; }    ///< the same of them
 
-  /// Completes a displacement from its values on owned nodes: copies, and what is prescribed. Collective.
+  /// Completes a displacement from its values on owned nodes: copies, and what is constrained. Collective.
   /// @param u on all local degrees of freedom, [length]
   /// @param load_factor at which it is prescribed [-]
   void expand(base::Field u, double load_factor) const;
 
-  /// A change of the displacement on all local degrees of freedom from one on owned ones: zero where prescribed. It
-  /// stays valid until the next call. Collective.
+  /// A change of the displacement on all local degrees of freedom from one of the unknowns: zero where it is
+  /// prescribed. It stays valid until the next call. Collective.
   /// @param x on owned degrees of freedom, [length]
   base::ConstField expand_change(const Vector& x) const;
 
@@ -42,15 +47,28 @@ class Space {
   /// of freedom; zero where nothing is prescribed, [length]. Local.
   std::vector<double> prescribed_rates(double load_factor, double step) const;
 
-  /// Takes forces on nodes to forces on unknowns: none where the displacement is prescribed. Local.
+  /// Takes forces on nodes to forces on unknowns: none where the displacement is prescribed, and of a group's those
+  /// that move it. Collective where there are groups.
   /// @param forces on all local degrees of freedom, or on owned ones, [force]
   void restrict_forces(base::Field forces) const;
+
+  /// Whether what is prescribed at a node decides about a component of its displacement, at least in part.
+  bool is_held(int node, int component) const;
+
+  /// From components along x, y, z to unknowns, on owned degrees of freedom, in place, but for groups.
+  void turn(Tpetra::MultiVector<double>& vectors) const;
+
+  const NodeFrames<dim>& frames() const { return frames_; }
+  const GroupTies<dim>& groups() const { return groups_; }
 
  private:
   const DofMap<dim>& dofs_;
   const Dirichlet<dim>& dirichlet_;
-  std::vector<char> fixed_;      ///< per local degree of freedom
-  std::vector<int> prescribed_;  ///< those that are
+  NodeFrames<dim> frames_;
+  GroupTies<dim> groups_;
+  std::vector<int> along_axes_;  ///< of those that are prescribed, along x, y or z
+  std::vector<int> prescribed_, constrained_;
+  std::vector<char> is_constrained_;  ///< per local degree of freedom
   Teuchos::RCP<Vector> owned_, all_;
 
   Ramp<double> ramp(int dof) const { return dirichlet_.ramp(dofs_.reference_node(dof / dim), dof % dim); }

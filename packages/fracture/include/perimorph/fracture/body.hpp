@@ -131,8 +131,8 @@ class Body {
   void assemble();
   void publish(const bonds::BondChange& change);
   void balance(Accuracy accuracy);
+  void meet_measure(Accuracy accuracy);
   void follow_measure();
-  bool is_measure_missed(double far_off) const;
   void count(const solvers::Equilibrium::Outcome& outcome);
   std::vector<double> load_response();
   double power_of_supports() const;

@@ -114,6 +114,16 @@ class Section {
     choose(name, variable, choices, input::required(one_of(words(choices))), documentation);
   }
 
+  /// The same, and may be left out: the variable's value, which needs no word, then stays; the documentation says what
+  /// that means.
+  template <class E, class Choices>
+  void optional_choice(const std::string& name, E& variable, const Choices& choices,
+                       const std::string& documentation) const {
+    std::string word;
+    pass(name, word, choices.front().word, input::optional(one_of(words(choices))), documentation);
+    if (!word.empty()) variable = value_of(choices, word);
+  }
+
   /// Entries that the user names, each a section; the name goes to Entry::name.
   /// @param declare the parameters of one entry
   template <class Entry>

@@ -54,6 +54,7 @@ struct Problem {
   std::vector<std::shared_ptr<const discretization::Amplitude>> amplitudes = {};  ///< that conditions refer to
   const discretization::Amplitude* common_amplitude = nullptr;  ///< of all loads that are proportional; null: none
   std::optional<MeasureControl<dim>> control = {};              ///< none: the load factor is the increment's number
+  std::vector<discretization::RigidGroup> rigid_groups = {};    ///< that displacements may move as a whole
   double thickness = 1.;  ///< of a body in two dimensions, which forces and energies are multiplied by, [length]
 
   /// What an increment prescribes, or a part of one: its load factor [-], or with control what is measured, [length].

@@ -40,8 +40,8 @@ class StiffnessMatrix {
   using Block = Eigen::Matrix<double, dim, dim>;
 
   /// Collective. Model, space and terms are read again later; the first two must outlive this.
-  /// @param constraints stiffness on the diagonal where displacements are prescribed, per owned degree of freedom,
-  ///        [force / length]; 0 elsewhere
+  /// @param constraints stiffness on the diagonal of degrees of freedom that are constrained, and coupled to no other,
+  ///        per owned one, [force / length]; 0 elsewhere
   /// @param basis of the unknowns where they are not nodal displacements; what is on the diagonal is not transformed
   StiffnessMatrix(const CoupledModel<dim>& model, const discretization::Space<dim>& space, ForceTerms<dim> terms,
                   const std::vector<double>& constraints, const BondSelection& selection = all_bonds,
@@ -81,10 +81,11 @@ class StiffnessMatrix {
 
  private:
   CoupledModel<dim> model_;
+  const discretization::Space<dim>& space_;
   ForceTerms<dim> terms_;
   BondSelection selection_;
   Teuchos::RCP<const PointBasis<dim>> basis_;  ///< null: nodal displacements everywhere
-  std::vector<double> free_;                   ///< per local degree of freedom: 0 if prescribed, 1 otherwise
+  std::vector<double> free_;                   ///< per local degree of freedom: 0 if constrained, 1 otherwise
   std::vector<std::size_t> first_;     ///< node-block rows: position of the first block of each owned node's row
   std::vector<int> columns_;           ///< nodes, ascending in a row
   std::vector<std::size_t> diagonal_;  ///< position of each row's diagonal block
@@ -97,7 +98,7 @@ class StiffnessMatrix {
   }
   void find_pattern(const Couplings<dim>& couplings);
   void make_matrix();
-  void add_block(int row, int column, const Block& block);
+  void add_block(int row, int column, const Block& of_nodes);
 };
 
 }  // namespace perimorph::operators

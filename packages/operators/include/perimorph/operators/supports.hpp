@@ -8,15 +8,15 @@
 
 namespace perimorph::operators {
 
-/// Stiffness on the diagonal of every form of K, per owned degree of freedom, [force / length]. A prescribed
-/// displacement's row and column are zero but for it. The nodes of discontinuous elements are anchored by a vanishing
+/// Stiffness on the diagonal of every form of K, per owned degree of freedom, [force / length]. The row and column of one
+/// that is constrained are zero but for it. The nodes of discontinuous elements are anchored by a vanishing
 /// spring, so that K stays definite when pieces come to float.
 template <int dim>
 struct Supports {
   static constexpr double anchor = 1e-8;  ///< share of the stiffness E0 h^(dim - 2) that anchors have
 
-  std::vector<double> constraints;  ///< where the displacement is prescribed
-  std::vector<double> anchors;      ///< where it is not, in discontinuous elements
+  std::vector<double> constraints;  ///< of those that are constrained
+  std::vector<double> anchors;      ///< of nodes that may move, in discontinuous elements
 
   /// Local.
   /// @param discontinuous per local element, right in the halo too

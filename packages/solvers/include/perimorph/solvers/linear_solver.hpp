@@ -20,6 +20,13 @@ struct SolverParameters {
   Teuchos::ParameterList belos, muelu;  ///< overrides
 };
 
+/// Unknowns that the preconditioner's matrix holds fast, and how they can move all the same: motions of groups that move
+/// as one.
+struct GroupMotions {
+  std::vector<int> rows;                     ///< owned
+  std::vector<std::vector<double>> motions;  ///< orthonormal, (n_owned unknowns) each, zero in all other rows [-]
+};
+
 /// Conjugate gradients (Belos) with multigrid, for a matrix whose values change a little between many solves. The
 /// preconditioner is kept as long as it serves, but for its finest level: then refreshed, then rebuilt.
 class LinearSolver {
@@ -37,6 +44,9 @@ class LinearSolver {
                     const NearNullSpace& near_null_space, const Teuchos::RCP<const Operator>& basis = Teuchos::null,
                     std::optional<base::NodeWeights> from_old = std::nullopt,
                     std::function<Teuchos::RCP<Matrix>()> whole_matrix = {});
+
+  /// After set_operator(), whose operator couples them where its preconditioner's matrix does not. Local.
+  void set_groups(GroupMotions groups);
 
   /// The preconditioner's matrix has new values in the rows of these owned nodes. Local.
   void note_change(const std::vector<int>& nodes);
@@ -77,6 +87,8 @@ class LinearSolver {
   NearNullSpace near_null_space_;
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<Factorization> factorization_;  ///< null: multigrid preconditions
+  std::optional<GroupMotions> groups_;
+  Teuchos::RCP<const Operator> with_groups_;  ///< the preconditioner with their motions, once made
   Condition condition_ = Condition::missing;
   std::vector<int> changed_nodes_;          ///< since the last solve; some more than once
   std::optional<base::NodeWeights> moved_;  ///< to a new matrix since the last solve
@@ -92,6 +104,7 @@ class LinearSolver {
   void set_up(const std::function<void()>& work);
   void build();
   Outcome attempt(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
+  Teuchos::RCP<const Operator> preconditioner();
   Outcome iterate(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   Outcome run_conjugate_gradients(const MultiVector& right_hand_side, MultiVector& solution, double relative_tolerance);
   double fresh_rate_ = 0.;  ///< iterations per decade of reduction with the preconditioner as built
