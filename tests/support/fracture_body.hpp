@@ -47,7 +47,8 @@ struct SpecimenIn {
   std::optional<materials::Toughness> interface = {};  ///< between any two materials; none: perfect
   std::optional<model::MeasureControl<dim>> control = {};
   discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
-  double friction = 0.;  ///< coefficient
+  double friction = 0.;                             ///< coefficient
+  std::optional<double> compressive_strength = {};  ///< none: that of bonds which break by their stretch alone
 };
 using Specimen = SpecimenIn<2>;
 
@@ -61,6 +62,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   const materials::BondLaw law = specimen.law.value_or(specimen.critical_stretch);
   material.toughness = {law, materials::fracture_energy<dim>(material.micromodulus, std::sqrt(2. * law.area()),
                                                              material.dilatational_ratio)};
+  material.compressive_strength = specimen.compressive_strength;
   std::vector<materials::Material<dim>> all = {std::move(material)};
   all.insert(all.end(), specimen.others.begin(), specimen.others.end());
   std::vector<materials::Interface> interfaces;
