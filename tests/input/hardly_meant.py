@@ -389,10 +389,27 @@ class Plausibility(Checked):
     def test_check_tells_strength_and_first_break(self):
         run = self.check(ranks=2)
         self.assertIn("strength         E s_crit = 50: ", run.stdout)
+        self.assertIn("strength         in uniaxial compression 150, 3 times that in tension: bonds across it", run.stdout)
         self.assertIn("first break      at load 2.", run.stdout)
         self.assertIn("in increment 3 of 3, reaction", run.stdout)
         self.assertEqual(self.run_case("--quiet").returncode, 0)
         self.assertEqual([float(row["broken_bonds"]) > 0 for row in self.history()], [False, False, True])
+
+    def test_the_compressive_strength_is_told_and_one_below_that_of_the_stretch_is_refused(self):
+        told = self.check("--set", "Material/Compressive Strength=500").stdout
+        self.assertIn("strength         in uniaxial compression 500, 10 times that in tension: of the stretch across it only", told)
+        self.assertIn("strength         in uniaxial compression bonds across it soften from", self.check_soft())
+        self.write_case({"Material/Poisson's Ratio": -0.1})
+        self.assertIn("strength         no uniaxial compression breaks it: with nu = -0.1", self.check().stdout)
+        self.write_case({"Material/Compressive Strength": 100.0})
+        for ranks in [1, 2]:
+            run = self.check(ranks=ranks)
+            self.assertEqual(run.returncode, 2, run.stdout)
+            self.assertIn("plate.xml: /Material/Compressive Strength: found 100; allowed is 150 or more", run.stderr)
+
+    def check_soft(self):
+        self.write_case(self.SOFT)
+        return self.check().stdout
 
     def test_loads_that_break_nothing_or_all_at_once(self):
         slow = settings(*[f"{DISPLACEMENTS}/pull {way}/Rate={rate}" for way, rate in [("up", 1e-6), ("down", -1e-6)]])

@@ -104,6 +104,15 @@ Specimen plate_that_breaks_worst_first() {
   return specimen;
 }
 
+/// Pressed along the crack against the edge that is held.
+Specimen plate_under_compression(std::optional<double> poissons_ratio) {
+  Specimen specimen = plate_with_oblique_crack(DiscontinuousElements::on_damage);
+  specimen.body_force_rate = {8., 0.};
+  specimen.poissons_ratio = poissons_ratio;
+  specimen.compressive_strength = 300.;
+  return specimen;
+}
+
 struct Example {
   const char* name;
   Specimen specimen;
@@ -116,7 +125,9 @@ std::vector<Example> examples() {
           {"OnDamageSlitAlongElements", plate_with_slit(on_damage), {0.75, 0.82, 0.85}},
           {"WholeZoneObliqueCrackThroughElements", plate_with_oblique_crack(whole_zone), {0.3, 0.5, 0.6}},
           {"OnDamageObliqueCrackThroughElements", plate_with_oblique_crack(on_damage), {0.3, 0.5, 0.6}},
-          {"WorstThirdFirst", plate_that_breaks_worst_first(), {0.3, 0.5, 0.6}}};
+          {"WorstThirdFirst", plate_that_breaks_worst_first(), {0.3, 0.5, 0.6}},
+          {"UnderCompression", plate_under_compression({}), {0.3, 0.5, 0.7}},
+          {"UnderCompressionWithDilatation", plate_under_compression(0.25), {0.3, 0.5, 0.7}}};
 }
 
 /// A block of 8 x 6 x 2 cubes, or of these cut up, with an edge crack along faces of elements, pulled apart at the
@@ -178,6 +189,13 @@ TEST_P(BrokenBonds, AreTheSameOnAnyNumberOfRanks) {
 
 TEST(BrokenBondsIn3d, OfHexahedraAreTheSameOnAnyNumberOfRanks) {
   expect_the_same_on_all_ranks(block_with_edge_crack(ElementType::hex8), {0.2, 0.5, 0.6}, 100);
+}
+
+TEST(BrokenBondsIn3d, WithACompressiveStrengthAreTheSameOnAnyNumberOfRanks) {
+  auto specimen = block_with_edge_crack(ElementType::hex8);
+  specimen.body_force_rate = {8., 0., 0.};
+  specimen.compressive_strength = 300.;
+  expect_the_same_on_all_ranks(specimen, {0.2, 0.5, 0.7}, 100);
 }
 
 TEST(BrokenBondsIn3d, OfTetrahedraAreTheSameOnAnyNumberOfRanks) {

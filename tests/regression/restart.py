@@ -198,6 +198,34 @@ class PathFollowing(GrowingCrack):
             self.assertAlmostEqual(float(row["load_factor"]) / float(other["load_factor"]), 1, places=5)
 
 
+class Compression(GrowingCrack):
+    """Beside a crack that is pulled open the plate is pressed along it, and has a compressive strength."""
+
+    CASE = changed(GrowingCrack.CASE, {"Boundary Conditions/Body Force/Rate": [0.5, 0.0], "Material/Compressive Strength": 300.0})
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stop, options in [(1, 12, []), (4, 10, []), (2, 13, settings("Material/Poisson's Ratio=0.25"))]:
+            with self.subTest(ranks=ranks):
+                self.run_until(INCREMENTS, *EVERY, *options, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 100)
+                self.assert_continues(whole, stop, *EVERY, *options, ranks=ranks)
+
+    def test_it_breaks_less_and_on_any_number_of_ranks_the_same(self):
+        self.write_case({"Material/Compressive Strength": None})
+        self.run_until(INCREMENTS)
+        by_stretch = self.rows()
+        self.write_case()
+        self.run_until(INCREMENTS)
+        alone = self.rows()
+        self.assertLess(int(alone[-1]["broken_bonds"]), int(by_stretch[-1]["broken_bonds"]))
+        for ranks in [2, 4]:
+            self.run_until(INCREMENTS, ranks=ranks)
+            for row, other in zip(alone, self.rows(), strict=True):
+                for name in ["broken_bonds", "damaged_elements", "dgfe_elements"]:
+                    self.assertEqual(row[name], other[name])
+
+
 class LoadSteps(GrowingCrack):
     """Pulled, let go and pulled again; in the second case beside a weight that has come first."""
 

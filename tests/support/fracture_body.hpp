@@ -49,6 +49,7 @@ struct SpecimenIn {
   discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
   double friction = 0.;  ///< coefficient
   std::vector<discretization::RigidGroup> rigid_groups = {};
+  std::optional<double> compressive_strength = {};  ///< none: that of bonds which break by their stretch alone
 };
 using Specimen = SpecimenIn<2>;
 
@@ -62,6 +63,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   const materials::BondLaw law = specimen.law.value_or(specimen.critical_stretch);
   material.toughness = {law, materials::fracture_energy<dim>(material.micromodulus, std::sqrt(2. * law.area()),
                                                              material.dilatational_ratio)};
+  material.compressive_strength = specimen.compressive_strength;
   std::vector<materials::Material<dim>> all = {std::move(material)};
   all.insert(all.end(), specimen.others.begin(), specimen.others.end());
   std::vector<materials::Interface> interfaces;

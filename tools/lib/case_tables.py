@@ -20,7 +20,7 @@ def extents(data):
 def materials(data):
     """A row each; columns that no material has are left out."""
     columns = {"Young's Modulus": "E", "Poisson's Ratio": "ν", "Density": "ρ", "Tensile Strength": "f_t",
-               "Characteristic Length": "l", "Critical Stretch": "s_crit", "Fracture Energy": "G_c"}
+               "Compressive Strength": "f_c", "Characteristic Length": "l", "Critical Stretch": "s_crit", "Fracture Energy": "G_c"}
     entries = data.table["Materials"]
     used = [name for name in columns if any(name in entry for entry in entries.values())]
     blocks = {place: ", ".join(name for name, block in data.table["Blocks"].items() if block["Material"] == place)

@@ -55,6 +55,28 @@ const char* what_decides(double brittleness) {
                             : "strength and fracture energy decide together";
 }
 
+/// Under which uniaxial compression bonds of a uniform body begin to break, or to soften.
+template <int dim>
+void describe_compression(const std::string& name, const materials::Material<dim>& material, const base::Log& log) {
+  const auto& law = material.toughness.law;
+  const double strength = material.compressive_strength.value_or(materials::compressive_strength_of_stretch(material));
+  const double over_tensile = strength / (material.youngs_modulus * law.limit());
+  if (std::isinf(strength)) {
+    log->info("strength         {}no uniaxial compression breaks it: with nu = {:.4g} it stretches no bond", name,
+              material.poissons_ratio);
+  } else if (law.softens()) {
+    log->info(
+        "strength         {}in uniaxial compression bonds across it soften from {:.4g}, {:.3g} times what it takes in "
+        "tension",
+        name, strength, over_tensile);
+  } else {
+    log->info("strength         {}in uniaxial compression {:.4g}, {:.3g} times that in tension: {}", name, strength,
+              over_tensile,
+              material.compressive_strength ? "of the stretch across it only a part counts"
+                                            : "bonds across it stretch by nu times its strain");
+  }
+}
+
 /// E s_crit of each material; of one that softens by how much the body is larger than its own length.
 template <int dim>
 void describe_strengths(const cases::Case& input, const model::Problem<dim>& problem, double depth,
@@ -73,10 +95,12 @@ void describe_strengths(const cases::Case& input, const model::Problem<dim>& pro
           what_decides(depth / length));
       log->info("length           {}l = {:.4g} is one of the material: keep it, and the horizon, on other meshes",
                 whose(problem, m), problem.materials[m].micromodulus.characteristic_length);
+      describe_compression(whose(problem, m), problem.materials[m], log);
       continue;
     }
     log->info("strength         {}E s_crit = {:.4g}: about the stress that breaks the material where there is no crack",
-              whose(problem, m), cases::solids_of(input)[m].youngs_modulus * toughness.critical_stretch());
+              whose(problem, m), problem.materials[m].youngs_modulus * toughness.critical_stretch());
+    describe_compression(whose(problem, m), problem.materials[m], log);
   }
 }
 

@@ -152,6 +152,7 @@ void put_materials(const cases::Case& input, const model::Problem<dim>& problem,
     one.set("Poisson's Ratio", solids[m].poissons_ratio);
     if (solids[m].density > 0.) one.set("Density", solids[m].density);
     if (solids[m].tensile_strength) one.set("Tensile Strength", *solids[m].tensile_strength);
+    if (solids[m].compressive_strength) one.set("Compressive Strength", *solids[m].compressive_strength);
     one.set("Characteristic Length", problem.materials[m].micromodulus.characteristic_length);
     put_toughness(problem.materials[m].toughness, one);
   }

@@ -92,6 +92,7 @@ std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm
   warn_of_seeds_everywhere(*comm, mesh, input, problem, log);
   const double size = model::element_size(*comm, mesh, problem);
   const bool is_calibrated = model::calibrate_to_mesh(problem, input.numerical, size);
+  cases::check_compressive_strengths(input, problem);
   describe_fracture(problem, is_calibrated, log);
   auto lines = cases::advice(input, size);
   std::vector<double> stretches;

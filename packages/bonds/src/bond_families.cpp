@@ -229,29 +229,53 @@ void BondFamilies<dim>::for_each_stretched(const std::vector<Point<dim>>& displa
 }
 
 template <int dim>
+double BondFamilies<dim>::counted_stretch(const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law,
+                                          const std::vector<double>& dilatation) const {
+  const double stretch = std::sqrt(squared_ratio) - 1.;
+  if (!law.sees_compression()) return stretch;
+  return law.counted_stretch(stretch, 0.5 * (dilatation[bond.first_point] + dilatation[bond.second_point]));
+}
+
+template <int dim>
+void BondFamilies<dim>::check_dilatation(const std::vector<double>& dilatation) const {
+  PERIMORPH_ASSERT(!materials_.sees_compression() || static_cast<int>(dilatation.size()) == points_.size(),
+                   "the dilatation of {} of {} points", dilatation.size(), points_.size());
+}
+
+template <int dim>
 std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim>>& displacements,
-                                                     const std::vector<morphing::ElementClass>& classes,
-                                                     double ratio) const {
+                                                     const std::vector<morphing::ElementClass>& classes, double ratio,
+                                                     const std::vector<double>& dilatation) const {
   PERIMORPH_ASSERT(ratio >= 0., "{} times a limit", ratio);
+  check_dilatation(dilatation);
   std::vector<double> ratios;
   for_each_stretched(
       displacements, classes, [&](const materials::BondLaw& law) { return ratio * law.limit(); },
       [&](const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law) {
         if (bond.first_element >= mesh_.n_owned_elements) return;
-        ratios.push_back((std::sqrt(squared_ratio) - 1.) / law.limit());
+        const double stretch = counted_stretch(bond, squared_ratio, law, dilatation);
+        if (law.sees_compression() && stretch < ratio * law.limit()) return;
+        ratios.push_back(stretch / law.limit());
       });
   return ratios;
 }
 
 template <int dim>
 std::vector<BondId> BondFamilies<dim>::overstretched(const std::vector<Point<dim>>& displacements,
-                                                     const std::vector<morphing::ElementClass>& classes,
-                                                     double ratio) const {
+                                                     const std::vector<morphing::ElementClass>& classes, double ratio,
+                                                     const std::vector<double>& dilatation) const {
   PERIMORPH_ASSERT(ratio >= 0., "{} times a critical stretch", ratio);
+  check_dilatation(dilatation);
   std::vector<BondId> found;
   for_each_stretched(
       displacements, classes, [&](const materials::BondLaw& law) { return ratio * law.critical_stretch(); },
-      [&](const Bond<dim>& bond, double, const materials::BondLaw&) { found.push_back(bond.id); });
+      [&](const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law) {
+        if (law.sees_compression() &&
+            counted_stretch(bond, squared_ratio, law, dilatation) < ratio * law.critical_stretch()) {
+          return;
+        }
+        found.push_back(bond.id);
+      });
   return found;
 }
 

@@ -95,6 +95,24 @@ void check_fracture(const input::Values& section) {
                   "found beside \"Critical Stretch\"; allowed is one of the two: each follows from the other");
 }
 
+/// Only where bonds break at once, and compression stretches them.
+void check_compression(const input::Values& solid) {
+  const double *strength = solid.number("Compressive Strength"), *ratio = solid.number("Poisson's Ratio");
+  if (strength == nullptr) return;
+  const auto refuse = [&](const std::string& why) {
+    solid.mistake("Compressive Strength", fmt::format("found {:.6g}; allowed is none {}", *strength, why));
+  };
+  if (is_soft(solid)) {
+    refuse(fmt::format("with \"Bond Law\" = {}: what a bond dissipates as it softens follows from its stretch alone",
+                       input::in_quotes(*solid.text("Bond Law"))));
+  } else if (!solid.given("Critical Stretch") && !solid.given("Fracture Energy")) {
+    refuse("without \"Critical Stretch\" or \"Fracture Energy\": nothing breaks");
+  } else if (ratio != nullptr && *ratio <= 0.) {
+    refuse(fmt::format("with \"Poisson's Ratio\" = {:.6g}: compression stretches nothing across it, and breaks no bond",
+                       *ratio));
+  }
+}
+
 void check_length(const input::Values& solid, const input::Values& peridynamics) {
   const double *length = solid.number("Characteristic Length"), *horizon = peridynamics.number("Horizon");
   if (length == nullptr || horizon == nullptr || (*length < *horizon && *horizon <= longest_horizon * *length)) return;
@@ -216,6 +234,19 @@ void declare_fracture(const input::Section& section, Fracture& fracture) {
       "fracture per area, such as 0.05 to 0.15 N/mm for concrete.");
 }
 
+void declare_compression(const input::Section& section, Solid& solid) {
+  section.optional(
+      "Compressive Strength", solid.compressive_strength, 40., input::above(0.),
+      "f_c [stress] of brittle bonds: the uniaxial compression that a solid without cracks bears, above E s_crit / nu. "
+      "If it is not given bonds break by their stretch alone; then it is that, three or four times the tensile "
+      "strength "
+      "E s_crit (`perimorph check` prints it), since compression stretches bonds across it by nu times its strain. "
+      "Rock and "
+      "concrete bear ten times as much. Of the stretch by compression across a bond then only a share counts, so that "
+      "stresses sigma along it and -p across break it at sigma / f_t + p / f_c = 1 (Mohr-Coulomb's line between both "
+      "strengths).");
+}
+
 void declare_density(const input::Section& section, Solid& solid) {
   section.parameter("Density", solid.density, input::at_least(0.),
                     "[mass/volume], for Boundary Conditions/Self-Weight: with mm, N and MPa in t/mm^3, 2.4e-9 for "
@@ -231,6 +262,7 @@ void declare(const input::Section& section, Material& material) {
                           "In two dimensions what is assumed across the thickness: thin plates are in plane stress, "
                           "long bodies in plane strain. In three dimensions nothing is: \"Three-Dimensional\".");
   declare_fracture(section, material);
+  declare_compression(section, material);
   section.choice(
       "Calibration", material.calibration, calibrations,
       "How fracture energy and critical stretch belong together. \"Analytic\": by that integral. \"Mesh-Consistent\": "
@@ -250,6 +282,7 @@ void declare(const input::Section& section, Solid& solid) {
                    "The blocks of the mesh that it fills: physical groups of elements.");
   declare_stiffness(section, solid);
   declare_fracture(section, solid);
+  declare_compression(section, solid);
   section.optional("Characteristic Length", solid.characteristic_length, 0.1, above(0.),
                    "l [length] of its own in the micromodulus; that of Peridynamics if not given.");
   declare_density(section, solid);
@@ -269,6 +302,7 @@ void check_materials(const input::Values& root, int dimension) {
   for (const auto& solid : solids(root)) {
     if (model) check_poissons_ratio(solid, *model);
     check_fracture(solid);
+    check_compression(solid);
     check_length(solid, root.sub("Peridynamics"));
     check_density(solid, self_weight);
   }

@@ -115,6 +115,11 @@ materials::Toughness toughness_of(const std::string& path, const Fracture& fract
   return {*fracture.critical_stretch, *fracture.critical_stretch * *fracture.critical_stretch * unit_energy, true};
 }
 
+/// @param place among all materials
+std::string path_of(const Solid& solid, std::size_t place) {
+  return place == 0 ? "/Material" : "/Materials/" + solid.name;
+}
+
 template <int dim>
 materials::Material<dim> make_material(const Case& input, const Solid& solid, const std::string& path) {
   const auto& peridynamics = input.peridynamics;
@@ -122,6 +127,7 @@ materials::Material<dim> make_material(const Case& input, const Solid& solid, co
       input.material.elastic_model, solid.youngs_modulus, solid.poissons_ratio,
       solid.characteristic_length.value_or(peridynamics.characteristic_length), peridynamics.horizon);
   material.name = solid.name;
+  material.compressive_strength = solid.compressive_strength;
   material.toughness =
       toughness_of(input.file + ": " + path, solid, material, material,
                    materials::fracture_energy<dim>(material.micromodulus, 1., material.dilatational_ratio));
@@ -190,8 +196,7 @@ model::Problem<dim> make_problem(const Case& input) {
   for (const Solid& solid : solids_of(input)) {
     for (const auto& block : solid.blocks)
       problem.material_of_block[block] = static_cast<int>(problem.materials.size());
-    const bool is_first = problem.materials.empty();
-    problem.materials.push_back(make_material<dim>(input, solid, is_first ? "/Material" : "/Materials/" + solid.name));
+    problem.materials.push_back(make_material<dim>(input, solid, path_of(solid, problem.materials.size())));
     check_numbers(input, problem.materials.back(), solid);
   }
   problem.interfaces = make_interfaces(input, problem.materials);
@@ -212,6 +217,21 @@ model::Problem<dim> make_problem(const Case& input) {
 }
 
 template <int dim>
+void check_compressive_strengths(const Case& input, const model::Problem<dim>& problem) {
+  const auto solids = solids_of(input);
+  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+    const auto& material = problem.materials[m];
+    const double least = materials::compressive_strength_of_stretch(material);
+    if (!material.compressive_strength || *material.compressive_strength >= least) continue;
+    throw base::UserError(
+        fmt::format("{}: {}/Compressive Strength: found {:.6g}; allowed is {:.6g} or more, which a solid whose bonds "
+                    "break by their "
+                    "stretch alone bears (E s_crit / nu), or none",
+                    input.file, path_of(solids[m], m), *material.compressive_strength, least));
+  }
+}
+
+template <int dim>
 CheckedMesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder) {
   CheckedMesh<dim> result;
   base::on_all_ranks(comm, [&] {
@@ -225,9 +245,11 @@ CheckedMesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, cons
 }
 
 template model::Problem<2> make_problem<2>(const Case&);
+template void check_compressive_strengths<2>(const Case&, const model::Problem<2>&);
 template CheckedMesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const std::string&);
 
 template model::Problem<3> make_problem<3>(const Case&);
+template void check_compressive_strengths<3>(const Case&, const model::Problem<3>&);
 template CheckedMesh<3> read_whole_mesh<3>(const base::Comm&, const Case&, const std::string&);
 
 }  // namespace perimorph::cases

@@ -249,8 +249,9 @@ double Body<dim>::power_of_supports() const {
 template <int dim>
 std::string Body<dim>::reason_for(const std::string& trouble) const {
   const auto& [u, stretch, contacts] = system_.at_points();
-  const auto reason = operators::what_is_free(*comm_, model(), system_.space(), system_.loads(), contacts,
-                                              topology_.bonds().overstretched(u, topology_.classes()));
+  const auto reason =
+      operators::what_is_free(*comm_, model(), system_.space(), system_.loads(), contacts,
+                              topology_.bonds().overstretched(u, topology_.classes(), 1., system_.dilatation()));
   return reason.empty() ? trouble : reason;
 }
 
@@ -259,8 +260,8 @@ GlobalId Body<dim>::break_bonds(bool may_recover) {
   const auto timer = profile_.measure(Phase::bonds);
   if (!problem_.breaks()) return 0;
   PERIMORPH_ASSERT(system_.has_forces(), "nothing has been solved for load factor {}", state_.load_factor);
-  auto [change, held_energy] =
-      find_damage(*comm_, model(), system_.at_points(), topology_.classes(), options_.breaking_fraction, may_recover);
+  auto [change, held_energy] = find_damage(*comm_, model(), system_.at_points(), system_.dilatation(),
+                                           topology_.classes(), options_.breaking_fraction, may_recover);
   if (change.n_broken == 0 && change.n_softened > 0 && is_settled(change)) change = {};
   if (change.n_broken > 0 && system_.breaks_change_more()) {
     const double share = change.energy / held_energy, before = elastic_energy();

@@ -14,11 +14,11 @@ namespace {
 /// stretch as far up to rounding, such as mirror images, go together.
 template <int dim>
 double breaking_ratio(const base::Comm& comm, const bonds::BondFamilies<dim>& bonds,
-                      const std::vector<base::Point<dim>>& u, const std::vector<morphing::ElementClass>& classes,
-                      double fraction) {
+                      const std::vector<base::Point<dim>>& u, const std::vector<double>& dilatation,
+                      const std::vector<morphing::ElementClass>& classes, double fraction) {
   constexpr double rounding = 1e-12;  // of stretches
   if (fraction >= 1.) return 1.;
-  auto all = base::gather_on_all(comm, bonds.overstretches(u, classes));
+  auto all = base::gather_on_all(comm, bonds.overstretches(u, classes, 1., dilatation));
   if (all.empty()) return 1.;
   const auto n_worst = static_cast<long>(std::ceil(fraction * static_cast<double>(all.size())));
   std::nth_element(all.begin(), all.begin() + (n_worst - 1), all.end(), std::greater<>());
@@ -29,17 +29,17 @@ double breaking_ratio(const base::Comm& comm, const bonds::BondFamilies<dim>& bo
 
 template <int dim>
 Damage find_damage(const base::Comm& comm, const operators::CoupledModel<dim>& model,
-                   const operators::PointFields<dim>& at_points, const std::vector<morphing::ElementClass>& classes,
-                   double fraction, bool may_recover) {
+                   const operators::PointFields<dim>& at_points, const std::vector<double>& dilatation,
+                   const std::vector<morphing::ElementClass>& classes, double fraction, bool may_recover) {
   PERIMORPH_ASSERT(fraction > 0. && fraction <= 1., "share {}", fraction);
   PERIMORPH_ASSERT(static_cast<int>(at_points.displacement.size()) == model.points.size() &&
                        static_cast<int>(classes.size()) == model.mesh.n_elements(),
                    "displacements at {} of {} points, {} classes", at_points.displacement.size(), model.points.size(),
                    classes.size());
   const auto& bonds = model.bonds;
-  const double ratio = breaking_ratio(comm, bonds, at_points.displacement, classes, fraction);
+  const double ratio = breaking_ratio(comm, bonds, at_points.displacement, dilatation, classes, fraction);
   bonds::BondChange change;
-  change.broken = bonds.overstretched(at_points.displacement, classes, ratio);
+  change.broken = bonds.overstretched(at_points.displacement, classes, ratio, dilatation);
   change.softened = bonds.softened(at_points.displacement, classes, may_recover);
   const auto is_counted_here = [&](bonds::BondId b) {
     return bonds.bond(b).first_element < model.mesh.n_owned_elements;
@@ -57,10 +57,10 @@ Damage find_damage(const base::Comm& comm, const operators::CoupledModel<dim>& m
   return {std::move(change), sums[0]};
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                                    \
-  template Damage find_damage(const base::Comm&, const operators::CoupledModel<dim>&,                                 \
-                              const operators::PointFields<dim>&, const std::vector<morphing::ElementClass>&, double, \
-                              bool);
+#define PERIMORPH_INSTANTIATE(dim)                                                            \
+  template Damage find_damage(const base::Comm&, const operators::CoupledModel<dim>&,         \
+                              const operators::PointFields<dim>&, const std::vector<double>&, \
+                              const std::vector<morphing::ElementClass>&, double, bool);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

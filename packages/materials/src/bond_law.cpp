@@ -68,6 +68,15 @@ double BondLaw::dissipation(double largest_stretch) const {
   return area_up_to(stretch) - 0.5 * share_left(stretch) * stretch * stretch;
 }
 
+BondLaw BondLaw::under(const LateralCompression& compression) const {
+  PERIMORPH_ASSERT(
+      compression.uncounted >= 0. && compression.uncounted <= 1. && (compression.uncounted == 0. || !softens()),
+      "{} of the stretch by compression do not count, softening: {}", compression.uncounted, softens());
+  BondLaw law = *this;
+  law.compression_ = compression;
+  return law;
+}
+
 BondLaw BondLaw::scaled(double factor) const {
   PERIMORPH_ASSERT(std::isfinite(factor) && factor > 0., "{} times the stretches", factor);
   BondLaw law = *this;

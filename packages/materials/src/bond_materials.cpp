@@ -26,6 +26,10 @@ bool BondMaterials::softens() const {
   return std::any_of(laws_.begin(), laws_.end(), [](const BondLaw& law) { return law.softens(); });
 }
 
+bool BondMaterials::sees_compression() const {
+  return std::any_of(laws_.begin(), laws_.end(), [](const BondLaw& law) { return law.sees_compression(); });
+}
+
 double BondMaterials::smallest_limit() const {
   const auto by_limit = [](const BondLaw& one, const BondLaw& other) { return one.limit() < other.limit(); };
   return std::min_element(laws_.begin(), laws_.end(), by_limit)->limit();

@@ -1,5 +1,6 @@
 #include "perimorph/materials/material.hpp"
 
+#include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -15,13 +16,44 @@ double energy_of_dilatation(const Material<dim>& material) {
   return with - fracture_energy<dim>(material.micromodulus, 1.);
 }
 
+/// The share of the stretch by compression that does not count; none for a material that never breaks.
+template <int dim>
+std::optional<double> uncounted_share(const Material<dim>& material) {
+  if (!material.toughness.breaks()) return std::nullopt;
+  if (!material.compressive_strength) return 0.;
+  return 1. - compressive_strength_of_stretch(material) / *material.compressive_strength;
+}
+
 }  // namespace
 
 template <int dim>
 Material<dim> elastic_material(ElasticModel model, double youngs_modulus, double poissons_ratio,
                                double characteristic_length, double horizon) {
-  return {"", elasticity_tensor<dim>(model, youngs_modulus, poissons_ratio), dilatational_ratio(model, poissons_ratio),
-          calibrate<dim>(model, youngs_modulus, poissons_ratio, characteristic_length, horizon)};
+  return {"",
+          elasticity_tensor<dim>(model, youngs_modulus, poissons_ratio),
+          dilatational_ratio(model, poissons_ratio),
+          calibrate<dim>(model, youngs_modulus, poissons_ratio, characteristic_length, horizon),
+          {},
+          0.,
+          youngs_modulus,
+          poissons_ratio};
+}
+
+template <int dim>
+double compressive_strength_of_stretch(const Material<dim>& material) {
+  if (material.poissons_ratio <= 0.) return std::numeric_limits<double>::infinity();
+  return material.youngs_modulus * material.toughness.law.limit() / material.poissons_ratio;
+}
+
+template <int dim>
+LateralCompression lateral_compression(const Material<dim>& one, const Material<dim>& other, const BondLaw& law) {
+  const auto of_one = uncounted_share(one), of_other = uncounted_share(other);
+  if (law.softens() || (!of_one && !of_other)) return {};
+  const double uncounted = std::min(of_one.value_or(1.), of_other.value_or(1.));
+  if (uncounted == 0.) return {};
+  const auto mean = [&](auto of) { return 0.5 * (of(one) + of(other)); };
+  return {uncounted, mean([](const Material<dim>& m) { return m.e0(0, 1) / m.youngs_modulus; }),
+          mean([](const Material<dim>& m) { return m.poissons_ratio / (1. + m.poissons_ratio); })};
 }
 
 template <int dim>
@@ -65,7 +97,9 @@ Toughness perfect_interface(const Material<dim>& one, const Material<dim>& other
   template double fracture_energy(const Material<dim>&, const Material<dim>&, double);   \
   template double critical_stretch(const Material<dim>&, const Material<dim>&, double);  \
   template Toughness perfect_interface(const Material<dim>&, const Material<dim>&);      \
-  template double energy_of_bonds(const Material<dim>&, const Material<dim>&);
+  template double energy_of_bonds(const Material<dim>&, const Material<dim>&);           \
+  template double compressive_strength_of_stretch(const Material<dim>&);                 \
+  template LateralCompression lateral_compression(const Material<dim>&, const Material<dim>&, const BondLaw&);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

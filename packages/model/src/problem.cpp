@@ -28,12 +28,17 @@ materials::BondMaterials bond_materials(const mesh::Mesh<dim>& mesh, const Probl
   const std::size_t n = problem.materials.size();
   std::vector<materials::Micromodulus> micromoduli;
   std::vector<materials::BondLaw> laws(n * n);
+  const auto law_of = [](const materials::BondLaw& law, const auto& one, const auto& other) {
+    return law.under(materials::lateral_compression<dim>(one, other, law));
+  };
   for (std::size_t m = 0; m < n; ++m) {
     micromoduli.push_back(problem.materials[m].micromodulus);
-    laws[m * n + m] = problem.materials[m].toughness.law;
+    const auto& material = problem.materials[m];
+    laws[m * n + m] = law_of(material.toughness.law, material, material);
   }
   for (const auto& [first, second, toughness] : problem.interfaces) {
-    laws[first * n + second] = laws[second * n + first] = toughness.law;
+    laws[first * n + second] = laws[second * n + first] =
+        law_of(toughness.law, problem.materials[first], problem.materials[second]);
   }
   return {std::move(micromoduli), std::move(laws), materials_of_elements(mesh, problem)};
 }

@@ -168,6 +168,12 @@ void CoupledSystem<dim>::evaluate(base::ConstField u) {
 }
 
 template <int dim>
+std::vector<double> CoupledSystem<dim>::dilatation() const {
+  if (!topology_.bonds().materials().sees_compression()) return {};
+  return dilatation_at_points(model(), at_points_.displacement, topology_.element_exchange());
+}
+
+template <int dim>
 NonlinearSystem::Norms CoupledSystem<dim>::residual(Vector& residual) const {
   PERIMORPH_ASSERT(has_forces_ && residual.getLocalLength() == space_->n_owned(),
                    "residual of {} for {} degrees of freedom, evaluated: {}", residual.getLocalLength(),

@@ -97,6 +97,27 @@ std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, 
 }
 
 template <int dim>
+std::vector<double> dilatation_at_points(const CoupledModel<dim>& model, const std::vector<Point<dim>>& displacement,
+                                         const discretization::HaloExchange& elements) {
+  const auto n = static_cast<std::size_t>(model.points.size());
+  PERIMORPH_ASSERT(displacement.size() == n, "displacements at {} of {} points", displacement.size(), n);
+  std::vector<double> dilatation(n, 0.), weighted_volume(n, 0.);
+  model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
+    if (bond.is_broken) return;
+    const double squared_length = bond.xi.squaredNorm();
+    const double weight = model.bonds.stiffness(bond) * model.bonds.share_left(bond) * squared_length;
+    const double elongation = bond.xi.dot(displacement[bond.second_point] - displacement[bond.first_point]);
+    for (const int point : {bond.first_point, bond.second_point}) {
+      dilatation[point] += dim * weight * elongation;
+      weighted_volume[point] += weight * squared_length;
+    }
+  });
+  for (std::size_t i = 0; i < n; ++i) dilatation[i] = weighted_volume[i] > 0. ? dilatation[i] / weighted_volume[i] : 0.;
+  elements.update(dilatation, [&](int e) { return model.points.first(e); });
+  return dilatation;
+}
+
+template <int dim>
 ElementFields<dim> element_fields(const CoupledModel<dim>& model, base::ConstField u,
                                   const PointFields<dim>& at_points) {
   PERIMORPH_ASSERT(static_cast<int>(at_points.displacement.size()) == model.points.size(),
@@ -165,6 +186,10 @@ template std::vector<base::Voigt<3>> stress_at_points<3>(const CoupledModel<3>&,
                                                          const PointFields<3>&);
 
 template std::vector<Point<2>> displacements_at_points<2>(const CoupledModel<2>&, base::ConstField);
+template std::vector<double> dilatation_at_points<2>(const CoupledModel<2>&, const std::vector<Point<2>>&,
+                                                     const discretization::HaloExchange&);
 template std::vector<Point<3>> displacements_at_points<3>(const CoupledModel<3>&, base::ConstField);
+template std::vector<double> dilatation_at_points<3>(const CoupledModel<3>&, const std::vector<Point<3>>&,
+                                                     const discretization::HaloExchange&);
 
 }  // namespace perimorph::operators

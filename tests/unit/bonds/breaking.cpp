@@ -82,6 +82,37 @@ TEST_F(Breaking, StretchesOverTheCriticalOneAreToldInOrderOfBondsAndBreakNothing
   EXPECT_EQ(next, broken.size());
 }
 
+TEST_F(Breaking, OfStretchesByCompressionOnlyAShareCounts) {
+  const materials::BondLaw law = materials::BondLaw(critical_stretch).under({0.5, 0.3, 0.2});
+  BondedBody other{grid({7, 6, 7., 6., Point2::Zero(), 0.1}), 2.3, 0.6, {}, law};
+  other.grow({Zone<2>::everything()});
+  Eigen::Matrix2d gradient;
+  gradient << 1.03, 0.01, -0.02, 0.93;
+  std::vector<double> dilatation;
+  for (int i = 0; i < other.points.size(); ++i) dilatation.push_back(i % 3 == 0 ? 0.01 : -0.04);
+  std::vector<std::size_t> expected;
+  std::vector<double> ratios;
+  other.for_each_bond([&](int p, std::size_t b) {
+    const auto [i, j] = other.ends(p, b);
+    const Point2 xi = other.points.position(j) - other.points.position(i);
+    const double stretch = (gradient * xi).norm() / xi.norm() - 1.;
+    const double by_compression = 0.3 * 0.5 * (dilatation[i] + dilatation[j]) - 0.2 * stretch;
+    const double counted = stretch + 0.5 * std::min(0., by_compression);
+    if (counted < critical_stretch || other.bonds.pair(p).first == other.bonds.pair(p).second) return;
+    expected.push_back(b);
+    ratios.push_back(counted / critical_stretch);
+  });
+  const auto by_stretch = body.bonds.overstretched(deformed(gradient), classes);
+  ASSERT_GT(expected.size(), 50u);
+  ASSERT_LT(expected.size(), by_stretch.size() - 50u);
+
+  EXPECT_EQ(other.bonds.overstretched(deformed(gradient), classes, 1., dilatation), expected);
+  const auto found = other.bonds.overstretches(deformed(gradient), classes, 1., dilatation);
+  ASSERT_EQ(found.size(), ratios.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], ratios[k], 1e-12);
+  EXPECT_THROW(other.bonds.overstretched(deformed(gradient), classes), base::Bug);  // without the dilatation
+}
+
 TEST_F(Breaking, ARotationAndACompressionBreakNothing) {
   EXPECT_TRUE(body.break_overstretched(deformed(Eigen::Rotation2D<double>(0.7).toRotationMatrix()), classes).empty());
   EXPECT_TRUE(body.break_overstretched(widened(-0.5), classes).empty());

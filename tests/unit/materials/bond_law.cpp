@@ -79,12 +79,31 @@ TEST(BrittleLaw, HoldsAllUpToTheCriticalStretchAndDissipatesItAtOnce) {
   EXPECT_TRUE(std::isinf(BondLaw().critical_stretch()));
 }
 
+TEST(BrittleLaw, CountsOfTheStretchByCompressionAShare) {
+  const double nu = 0.2;
+  const LateralCompression plane_stress{0.75, nu / (1. - nu * nu), nu / (1. + nu)};
+  const BondLaw law = BondLaw(0.01).under(plane_stress);
+  const auto counted = [&](double along, double across) {  // stresses over E
+    const double stretch = along - nu * across, other = across - nu * along;
+    return law.counted_stretch(stretch, stretch + other);
+  };
+  EXPECT_TRUE(law.sees_compression());
+  EXPECT_DOUBLE_EQ(counted(0.01, 0.), 0.01);
+  EXPECT_DOUBLE_EQ(counted(0.01, 0.02), 0.006);   // tension across counts in full
+  EXPECT_DOUBLE_EQ(counted(0.01, -0.02), 0.011);  // compression by a quarter
+  EXPECT_DOUBLE_EQ(counted(0., -0.2), 0.01);
+  EXPECT_EQ(BondLaw(0.01).counted_stretch(0.01, -5.), 0.01);
+  EXPECT_EQ(law.scaled(2.).counted_stretch(0.01, -5.), law.counted_stretch(0.01, -5.));
+}
+
 TEST(BondLaw, RefusesWhatNoBondCanBe) {
   EXPECT_THROW(BondLaw(-0.01), base::Bug);
   EXPECT_THROW(BondLaw::softening(Softening::bilinear, limit, 0.5 * limit * limit),
                base::Bug);  // that of a brittle one
   EXPECT_THROW(BondLaw::softening(Softening::none, limit, area), base::Bug);
   EXPECT_THROW(BondLaw(0.01).scaled(0.), base::Bug);
+  EXPECT_THROW(BondLaw(0.01).under({1.01, 1., 1.}), base::Bug);
+  EXPECT_THROW(BondLaw::softening(Softening::bilinear, limit, area).under({0.5, 1., 1.}), base::Bug);
 }
 
 }  // namespace

@@ -40,6 +40,44 @@ TEST(Interface, IsAsToughAsTheLessToughMaterialIfItIsPerfect) {
   EXPECT_FALSE(perfect_interface(steel, steel).breaks());
 }
 
+/// Critical stretch 0.001, so that bonds break by their stretch at E 0.001 / 0.2.
+Material<2> rock(double youngs_modulus, std::optional<double> compressive_strength) {
+  auto material = elastic_material<2>(ElasticModel::plane_stress, youngs_modulus, 0.2, 0.3, 3.);
+  material.toughness = {0.001, 1.};
+  material.compressive_strength = compressive_strength;
+  return material;
+}
+
+double uncounted(const Material<2>& one, const Material<2>& other, const BondLaw& law = 0.001) {
+  return lateral_compression(one, other, law).uncounted;
+}
+
+TEST(CompressiveStrength, OfStretchFollowsFromPoissonsRatio) {
+  EXPECT_DOUBLE_EQ(compressive_strength_of_stretch(rock(1000., {})), 5.);
+  EXPECT_TRUE(std::isinf(compressive_strength_of_stretch(plate(1000., 0.3))));  // it never breaks
+  const auto auxetic = elastic_material<2>(ElasticModel::plane_stress, 1000., -0.1, 0.3, 3.);
+  EXPECT_TRUE(std::isinf(compressive_strength_of_stretch(auxetic)));
+}
+
+TEST(CompressiveStrength, IsBorneByBondsOfWhoseStretchAsMuchDoesNotCount) {
+  const auto material = rock(1000., 20.);
+  const auto compression = lateral_compression(material, material, material.toughness.law);
+  EXPECT_DOUBLE_EQ(compression.uncounted, 0.75);
+  const double strain = 20. / 1000., stretch = 0.2 * strain;
+  EXPECT_NEAR(material.toughness.law.under(compression).counted_stretch(stretch, stretch - strain), 0.001, 1e-15);
+}
+
+TEST(CompressiveStrength, BetweenTwoMaterialsIsThatOfTheOneWhoseStretchCountsMore) {
+  const auto weak = rock(1000., 10.), strong = rock(3000., 150.), by_stretch = rock(1000., {}),
+             steel = plate(9000., 0.3);
+  EXPECT_DOUBLE_EQ(uncounted(weak, strong), 0.5);
+  EXPECT_DOUBLE_EQ(uncounted(strong, weak), 0.5);
+  EXPECT_EQ(uncounted(weak, by_stretch), 0.);
+  EXPECT_DOUBLE_EQ(uncounted(steel, weak), 0.5);  // steel never breaks
+  EXPECT_EQ(uncounted(steel, steel), 0.);         // the interface may
+  EXPECT_EQ(uncounted(weak, strong, BondLaw::softening(Softening::bilinear, 0.001, 1e-5)), 0.);
+}
+
 TEST(BondMaterials, HaveTheHarmonicMeanBetweenTwo) {
   const Micromodulus one{2., 0.3, 3.}, other{5., 0.4, 3.};
   const std::vector<BondLaw> four = {0.01, 0.03, 0.03, 0.02};

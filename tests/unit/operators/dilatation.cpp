@@ -187,5 +187,25 @@ TEST(DilatationOfBonds, LeavesTheStiffnessPositiveDefinite) {
   }
 }
 
+/// Of a uniform strain the trace, at each point of each rank, also where bonds are missing or broken.
+TEST(DilatationAtPoints, IsTheTraceOfAUniformIsotropicStrain) {
+  CoupledBody body(zone_in_the_middle(1. / 3.));
+  body.break_bonds(body.bonds_between([&](int first, int second) {
+    return (mesh::centroid(body.mesh, first)[0] < 5.) != (mesh::centroid(body.mesh, second)[0] < 5.);
+  }));
+  std::vector<Point2> u;
+  for (int i = 0; i < body.points.size(); ++i) u.push_back(0.01 * body.points.position(i));
+
+  const auto dilatation = operators::dilatation_at_points(body.model(), u, body.topology.element_exchange());
+
+  int n_bonded = 0;
+  for (int e = 0; e < body.mesh.n_elements(); ++e) {
+    if (body.bonds.pairs_of(e).empty()) continue;
+    for (int i = body.points.first(e); i < body.points.first(e + 1); ++i, ++n_bonded)
+      EXPECT_NEAR(dilatation[i], 0.02, 1e-12);
+  }
+  EXPECT_GT(n_bonded, 20);
+}
+
 }  // namespace
 }  // namespace perimorph::tests

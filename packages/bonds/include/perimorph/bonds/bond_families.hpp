@@ -127,18 +127,21 @@ class BondFamilies {
   /// @param alpha at the points that the bonds join
   Extremes neighbourhood_extremes(const morphing::MorphingField<dim>& alpha) const;
 
-  /// The unbroken bonds whose stretch reaches their critical one [WHL19, eq. 6, 7], between two different elements that
-  /// both may break, ascending. Local: every rank that holds a bond decides alike.
+  /// The unbroken bonds whose stretch, as far as it counts, reaches their critical one [WHL19, eq. 6, 7], between two
+  /// different elements that both may break, ascending. Local: every rank that holds a bond decides alike.
   /// @param displacements at the points, (n_points), [length]; only those of elements with bonds are read
   /// @param classes by local element, (n_elements): those of PD may break
   /// @param ratio of the critical stretches from which bonds count, >= 0, [-]
+  /// @param dilatation at the points, (n_points), [-]; not read if no law sees compression
   std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements,
-                                    const std::vector<morphing::ElementClass>& classes, double ratio = 1.) const;
+                                    const std::vector<morphing::ElementClass>& classes, double ratio = 1.,
+                                    const std::vector<double>& dilatation = {}) const;
 
-  /// Stretches over the limits of the laws, of those bonds that reach a ratio of them, (n), [-]; those of which this
-  /// rank owns the first element, so that each comes from one rank. Arguments as there. Local.
+  /// What counts of stretches over the limits of the laws, of those bonds that reach a ratio of them, (n), [-]; those
+  /// of which this rank owns the first element, so that each comes from one rank. Arguments as there. Local.
   std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements,
-                                    const std::vector<morphing::ElementClass>& classes, double ratio = 1.) const;
+                                    const std::vector<morphing::ElementClass>& classes, double ratio = 1.,
+                                    const std::vector<double>& dilatation = {}) const;
 
   /// The bonds whose softening differs from what it was, without breaking. Arguments as there. Local.
   /// @param may_recover whether they may take back what is not accepted
@@ -191,6 +194,9 @@ class BondFamilies {
   template <class Threshold, class Visit>
   void for_each_stretched(const std::vector<base::Point<dim>>& displacements,
                           const std::vector<morphing::ElementClass>& classes, Threshold threshold, Visit visit) const;
+  double counted_stretch(const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law,
+                         const std::vector<double>& dilatation) const;
+  void check_dilatation(const std::vector<double>& dilatation) const;
   void lose(const Bond<dim>& bond, double share);
   void check_arguments() const;
   void add_pair(int a, int b, const std::vector<typename Visibility<dim>::Facet>& obstacles);

@@ -29,6 +29,7 @@ struct Solid : Fracture {
   double poissons_ratio = 0.;                   ///< [-]
   double density = 0.;                          ///< [mass / volume]
   std::optional<double> characteristic_length;  ///< [length]; none: that of all
+  std::optional<double> compressive_strength;   ///< [stress]; none: that of bonds which break by their stretch alone
 };
 
 /// The material of all blocks that no other fills, and what holds for all materials.

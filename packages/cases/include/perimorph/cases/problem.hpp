@@ -15,6 +15,12 @@ namespace perimorph::cases {
 template <int dim>
 model::Problem<dim> make_problem(const Case& input);
 
+/// Whether compressive strengths are those that bonds can have, once critical stretches are known. Local.
+/// @param problem of this case, calibrated
+/// @throws UserError
+template <int dim>
+void check_compressive_strengths(const Case& input, const model::Problem<dim>& problem);
+
 template <int dim>
 struct CheckedMesh {
   mesh::Mesh<dim> whole;              ///< on rank 0, empty on others

@@ -20,13 +20,25 @@ class HaloExchange {
   template <class T>
   void update(std::vector<T>& values) const {
     PERIMORPH_ASSERT(values.size() == n_items_, "{} values for {} items", values.size(), n_items_);
+    update(values, [](int item) { return item; });
+  }
+
+  /// The same where items have several values. Collective.
+  /// @param first first(i) up to first(i + 1) are the places of those of item i
+  template <class T, class First>
+  void update(std::vector<T>& values, First first) const {
     std::vector<std::vector<T>> outgoing(sent_.size());
     for (std::size_t r = 0; r < sent_.size(); ++r) {
-      for (const int item : sent_[r]) outgoing[r].push_back(values[item]);
+      for (const int item : sent_[r]) {
+        for (int i = first(item); i < first(item + 1); ++i) outgoing[r].push_back(values[i]);
+      }
     }
     const auto incoming = base::exchange(comm_, outgoing);
     for (std::size_t r = 0; r < received_.size(); ++r) {
-      for (std::size_t i = 0; i < received_[r].size(); ++i) values[received_[r][i]] = incoming[r][i];
+      auto next = incoming[r].begin();
+      for (const int item : received_[r]) {
+        for (int i = first(item); i < first(item + 1); ++i) values[i] = *next++;
+      }
     }
   }
 

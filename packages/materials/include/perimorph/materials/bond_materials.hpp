@@ -34,6 +34,7 @@ class BondMaterials {
     return laws_[static_cast<std::size_t>(of(first_element)) * micromoduli_.size() + of(second_element)];
   }
   bool softens() const;           ///< whether any of the laws does
+  bool sees_compression() const;  ///< the same
   double smallest_limit() const;  ///< of all laws, [-]
   bool is_single() const { return micromoduli_.size() == 1; }
   const Micromodulus& micromodulus_of(int element) const { return micromoduli_[of(element)]; }

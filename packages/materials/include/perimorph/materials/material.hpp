@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,10 @@ struct Material {
   double dilatational_ratio = 0.;  ///< kappa / mu (materials::dilatational_ratio), [-]; 0: bonds alone carry
   Micromodulus micromodulus;
   Toughness toughness = {};
-  double density = 0.;  ///< [mass / volume]
+  double density = 0.;                              ///< [mass / volume]
+  double youngs_modulus = 0., poissons_ratio = 0.;  ///< [stress], [-]
+  std::optional<double> compressive_strength =
+      {};  ///< none: that of bonds which break by their stretch alone, [stress]
 };
 
 /// A material that never breaks. Arguments as for elasticity_tensor() and calibrate().
@@ -56,6 +60,17 @@ double critical_stretch(const Material<dim>& one, const Material<dim>& other, do
 /// What bonds alone contribute to it at a critical stretch of 1, [energy / area].
 template <int dim>
 double energy_of_bonds(const Material<dim>& one, const Material<dim>& other);
+
+/// The uniaxial compression at which bonds that break, or soften, by their stretch alone begin to do so: across it they
+/// stretch by nu times its strain. E s0 / nu, infinite for nu <= 0, [stress].
+template <int dim>
+double compressive_strength_of_stretch(const Material<dim>& material);
+
+/// What compression across them does to bonds between two materials (or within one), so that each bears its
+/// compressive strength; between two the share that does not count is the smaller one of those that break.
+/// @param law of these bonds; those that soften go by their stretch
+template <int dim>
+LateralCompression lateral_compression(const Material<dim>& one, const Material<dim>& other, const BondLaw& law);
 
 /// The less tough of two materials; of two that never break neither.
 /// @return toughness of a perfect interface between them

@@ -99,8 +99,11 @@ class CoupledSystem : public NonlinearSystem {
   double elastic_energy(base::ConstField u) const;
 
   const PointFields<dim>& at_points() const { return at_points_; }  ///< at the last evaluation
-  const ForceTerms<dim>& terms() const { return terms_; }           ///< of the internal force
-  std::size_t bytes_of_operator() const;  ///< of memory, in the form that conjugate gradients apply
+  /// Of that displacement by the bonds that are left (dilatation_at_points); empty if no law of bonds sees compression.
+  /// Collective.
+  std::vector<double> dilatation() const;
+  const ForceTerms<dim>& terms() const { return terms_; }  ///< of the internal force
+  std::size_t bytes_of_operator() const;                   ///< of memory, in the form that conjugate gradients apply
 
  private:
   const base::Comm& comm_;
