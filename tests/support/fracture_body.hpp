@@ -47,7 +47,9 @@ struct SpecimenIn {
   std::optional<materials::Toughness> interface = {};  ///< between any two materials; none: perfect
   std::optional<model::MeasureControl<dim>> control = {};
   discretization::CrackFaces crack_faces = discretization::CrackFaces::free;
-  double friction = 0.;  ///< coefficient
+  double friction = 0.;           ///< coefficient
+  double thermal_expansion = 0.;  ///< of the body's material, as data sheets give it
+  std::vector<discretization::TemperatureChange<dim>> temperature_changes = {};
 };
 using Specimen = SpecimenIn<2>;
 
@@ -58,6 +60,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   const double poissons_ratio = specimen.poissons_ratio.value_or(materials::bond_based_poissons_ratio(model));
   auto material = materials::elastic_material<dim>(model, youngs_modulus, poissons_ratio,
                                                    specimen.characteristic_length, specimen.horizon);
+  material.thermal_expansion = specimen.thermal_expansion * materials::expansion_factor(model, poissons_ratio);
   const materials::BondLaw law = specimen.law.value_or(specimen.critical_stretch);
   material.toughness = {law, materials::fracture_energy<dim>(material.micromodulus, std::sqrt(2. * law.area()),
                                                              material.dilatational_ratio)};
@@ -82,6 +85,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   problem.control = specimen.control;
   problem.crack_faces = specimen.crack_faces;
   problem.friction = specimen.friction;
+  problem.temperature_changes = specimen.temperature_changes;
   return problem;
 }
 

@@ -30,22 +30,34 @@ def value_of(kind, text):
 
 
 class Condition:
-    """A prescribed displacement, traction, pressure or body force. values: before the first increment and at the end of each
-    stage, (stages + 1, 1 or dimensions); largest: in each stage; n_stages: before it is released. Where a measure decides on the
-    load, values are those without it and at a load factor of 1."""
+    """A prescribed displacement, traction, pressure, temperature or body force. values: before the first increment and at the end
+    of each stage, (stages + 1, 1 or dimensions); largest: in each stage; n_stages: before it is released. Where a measure
+    decides on the load, values are those without it and at a load factor of 1."""
 
     def __init__(self, kind, name, entry, n_dimensions):
         self.kind, self.name, self.group = kind, name, entry.get("Group")
         self.component = entry.get("Component")
-        n_values = 1 if kind in ("Displacements", "Pressures") else n_dimensions
+        self.blocks = entry.get("Blocks", "").strip("{}")
+        self.profile = [entry[key] for key in ("Direction", "Positions", "Factors") if key in entry]
+        n_values = 1 if kind in ("Displacements", "Pressures", "Temperatures") else n_dimensions
         self.values, self.largest = (entry[key].reshape(-1, n_values) for key in ("Values", "Largest"))
         self.n_stages, self.n_dimensions = entry["Stages"], n_dimensions
 
     @property
     def symbol(self):
         """What its values are called."""
-        return {"Displacements": f"u_{AXES[self.component or 0]}", "Tractions": "t", "Pressures": "p", "Body Force": "b",
-                "Self-Weight": "g"}[self.kind]
+        return {"Displacements": f"u_{AXES[self.component or 0]}", "Tractions": "t", "Pressures": "p", "Temperatures": "ΔT",
+                "Body Force": "b", "Self-Weight": "g"}[self.kind]
+
+    @property
+    def place(self):
+        """What it acts on, in words."""
+        blocks = self.blocks or "all of the body"
+        if not self.profile:
+            return self.group or blocks
+        direction, positions, factors = self.profile
+        course = ", ".join(f"{factor:.5g} at {position:.5g}" for position, factor in zip(positions, factors))
+        return f"{blocks}, along {numbers_text(direction)} times {course}".replace("-", "−")
 
     def value(self, stage):
         """That counts in a stage: at its end, or if that is zero the largest in it, or else the one before it."""
@@ -61,9 +73,9 @@ class Condition:
         return stage >= self.n_stages or (self.kind != "Displacements" and not self.value(stage).any())
 
     def direction(self, stage):
-        """Where it acts in a stage, of length 1; None for pressures, which follow the normal."""
+        """Where it acts in a stage, of length 1; None for pressures, which follow the normal, and temperatures."""
         value = self.value(stage)
-        if self.kind == "Pressures":
+        if self.kind in ("Pressures", "Temperatures"):
             return None
         if self.kind == "Displacements":
             return numpy.sign(value[0]) * numpy.eye(self.n_dimensions)[self.component]

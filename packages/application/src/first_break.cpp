@@ -14,10 +14,11 @@ namespace {
 /// threshold. Collective.
 template <int dim>
 double largest_ratio(const base::Comm& comm, const fracture::Body<dim>& body, double factor, double threshold) {
-  auto u = body.system().at_points().displacement;
+  auto [u, dilatational_stretch, contacts, eigenstrain] = body.system().at_points();
   for (auto& one : u) one *= factor;
+  for (double& one : eigenstrain) one *= factor;
   const auto& topology = body.topology();
-  const auto ratios = topology.bonds().overstretches(u, topology.classes(), threshold);
+  const auto ratios = topology.bonds().overstretches(u, topology.classes(), threshold, eigenstrain);
   const auto largest = std::max_element(ratios.begin(), ratios.end());
   return base::max(comm, largest == ratios.end() ? 0. : *largest);
 }

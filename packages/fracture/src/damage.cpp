@@ -14,11 +14,11 @@ namespace {
 /// stretch as far up to rounding, such as mirror images, go together.
 template <int dim>
 double breaking_ratio(const base::Comm& comm, const bonds::BondFamilies<dim>& bonds,
-                      const std::vector<base::Point<dim>>& u, const std::vector<morphing::ElementClass>& classes,
+                      const operators::PointFields<dim>& at_points, const std::vector<morphing::ElementClass>& classes,
                       double fraction) {
   constexpr double rounding = 1e-12;  // of stretches
   if (fraction >= 1.) return 1.;
-  auto all = base::gather_on_all(comm, bonds.overstretches(u, classes));
+  auto all = base::gather_on_all(comm, bonds.overstretches(at_points.displacement, classes, 1., at_points.eigenstrain));
   if (all.empty()) return 1.;
   const auto n_worst = static_cast<long>(std::ceil(fraction * static_cast<double>(all.size())));
   std::nth_element(all.begin(), all.begin() + (n_worst - 1), all.end(), std::greater<>());
@@ -37,10 +37,11 @@ Damage find_damage(const base::Comm& comm, const operators::CoupledModel<dim>& m
                    "displacements at {} of {} points, {} classes", at_points.displacement.size(), model.points.size(),
                    classes.size());
   const auto& bonds = model.bonds;
-  const double ratio = breaking_ratio(comm, bonds, at_points.displacement, classes, fraction);
+  const double ratio = breaking_ratio(comm, bonds, at_points, classes, fraction);
   bonds::BondChange change;
-  change.broken = bonds.overstretched(at_points.displacement, classes, ratio);
-  change.softened = bonds.softened(at_points.displacement, classes, may_recover);
+  const auto& [u, dilatational_stretch, contacts, eigenstrain] = at_points;
+  change.broken = bonds.overstretched(u, classes, ratio, eigenstrain);
+  change.softened = bonds.softened(u, classes, may_recover, eigenstrain);
   const auto is_counted_here = [&](bonds::BondId b) {
     return bonds.bond(b).first_element < model.mesh.n_owned_elements;
   };

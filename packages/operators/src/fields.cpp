@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "at_points.hpp"
+#include "local_part.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/elements/strain.hpp"
 
@@ -12,23 +13,6 @@ namespace perimorph::operators {
 using base::Point;
 
 namespace {
-
-/// Calls visit(q, strain, stress, w) for each point of an element: those of its continuous part, E(x) eps.
-template <int dim, class Visit>
-void visit_local_part(const CoupledModel<dim>& model, int e, base::ConstField u, Visit visit) {
-  elements::with_corners<dim>(model.mesh.n_corners(e), [&](auto corners) {
-    constexpr int n = decltype(corners)::value;
-    Eigen::Matrix<double, dim * n, 1> d;
-    for (int k = 0; k < n; ++k) {
-      d.template segment<dim>(k * dim) = base::at_node<dim>(u, model.dofs.nodes_of(e)[k]);
-    }
-    for (int q = 0; q < model.points.count(e); ++q) {
-      const base::Voigt<dim> strain = elements::strain_matrix<dim, n>(model.points.gradients(e, q)) * d;
-      const base::Voigt<dim> stress = model.elasticity.at(e, q) * strain;
-      visit(q, strain, stress, model.points.weight(model.points.first(e) + q));
-    }
-  });
-}
 
 /// Calls visit(bond, energy, stress) for each intact bond of a pair of elements, with its share in each end's energy
 /// and stress times volume.

@@ -82,6 +82,29 @@ TEST_F(Breaking, StretchesOverTheCriticalOneAreToldInOrderOfBondsAndBreakNothing
   EXPECT_EQ(next, broken.size());
 }
 
+TEST_F(Breaking, WhatCountsIsTheStretchBeyondTheMeanEigenstrainOfBothEnds) {
+  std::vector<double> eigenstrain;
+  for (int i = 0; i < body.points.size(); ++i) eigenstrain.push_back(0.005 * body.points.position(i)[0] / 3.);
+  const auto u = widened(critical_stretch + 0.004);
+  std::vector<std::size_t> expected;
+  std::vector<double> stretches;
+  body.for_each_bond([&](int p, std::size_t b) {
+    const auto [i, j] = body.ends(p, b);
+    const double beyond = critical_stretch + 0.004 - 0.5 * (eigenstrain[i] + eigenstrain[j]);
+    if (beyond < critical_stretch || body.bonds.pair(p).first == body.bonds.pair(p).second) return;
+    expected.push_back(b);
+    stretches.push_back(beyond / critical_stretch);
+  });
+  ASSERT_GT(expected.size(), 100u);
+  ASSERT_LT(expected.size(), n_between_elements() - 100u);
+
+  EXPECT_EQ(body.bonds.overstretched(u, classes, 1., eigenstrain), expected);
+  const auto found = body.bonds.overstretches(u, classes, 1., eigenstrain);
+  ASSERT_EQ(found.size(), stretches.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], stretches[i], 1e-12);
+  EXPECT_THROW(body.bonds.overstretched(u, classes, 1., {0.}), base::Bug);
+}
+
 TEST_F(Breaking, ARotationAndACompressionBreakNothing) {
   EXPECT_TRUE(body.break_overstretched(deformed(Eigen::Rotation2D<double>(0.7).toRotationMatrix()), classes).empty());
   EXPECT_TRUE(body.break_overstretched(widened(-0.5), classes).empty());

@@ -29,7 +29,8 @@ struct Material {
   double dilatational_ratio = 0.;  ///< kappa / mu (materials::dilatational_ratio), [-]; 0: bonds alone carry
   Micromodulus micromodulus;
   Toughness toughness = {};
-  double density = 0.;  ///< [mass / volume]
+  double density = 0.;            ///< [mass / volume]
+  double thermal_expansion = 0.;  ///< alpha_T in the directions that are computed (expansion_factor), [1 / temperature]
 };
 
 /// A material that never breaks. Arguments as for elasticity_tensor() and calibrate().
