@@ -212,7 +212,8 @@ template <class Threshold, class Visit>
 void BondFamilies<dim>::for_each_stretched(const AtPoints& at_points,
                                            const std::vector<morphing::ElementClass>& classes, Threshold threshold,
                                            Visit visit) const {
-  const auto& [displacements, eigenstrain] = at_points;
+  const std::vector<Point<dim>>& displacements = at_points.displacements;
+  const std::vector<double>& eigenstrain = at_points.eigenstrain;
   PERIMORPH_ASSERT(static_cast<int>(displacements.size()) == points_.size(), "{} displacements of {} points",
                    displacements.size(), points_.size());
   PERIMORPH_ASSERT(eigenstrain.empty() || eigenstrain.size() == displacements.size(), "eigenstrain at {} of {} points",

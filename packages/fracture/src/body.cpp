@@ -56,9 +56,9 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       profile_(profile),
       topology_(comm, mesh, topology_options(mesh, problem, options)),
       dirichlet_(*comm, mesh, problem.displacements),
-      system_(*comm, topology_, dirichlet_, problem.loads, elasticity(mesh, problem, options),
-              system_options(options, problem.friction), profile,
-              model::eigenstrain(mesh, topology_.points(), problem)),
+      system_(*comm, topology_, dirichlet_, problem.loads,
+              {elasticity(mesh, problem, options), model::eigenstrain(mesh, topology_.points(), problem)},
+              system_options(options, problem.friction), profile),
       equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
                    options.tolerance, options.damage_tolerance);

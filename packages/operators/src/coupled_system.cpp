@@ -17,17 +17,16 @@ using base::Point;
 template <int dim>
 CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
                                   const discretization::Dirichlet<dim>& dirichlet,
-                                  const discretization::Loads<dim>& loads, MorphedStiffness<dim> elasticity,
-                                  SystemOptions options, base::Profile& profile,
-                                  discretization::Eigenstrain<dim> eigenstrain)
+                                  const discretization::Loads<dim>& loads, ElasticResponse<dim> response,
+                                  SystemOptions options, base::Profile& profile)
     : comm_(comm),
       topology_(topology),
       dirichlet_(dirichlet),
       load_data_(loads),
       options_(options),
       profile_(profile),
-      elasticity_(std::move(elasticity)),
-      eigenstrain_(std::move(eigenstrain)) {
+      elasticity_(std::move(response.elasticity)),
+      eigenstrain_(std::move(response.eigenstrain)) {
   PERIMORPH_ASSERT(options.preconditioner_matrix == PreconditionerMatrix::coupled || options.short_range_cut_off > 0.,
                    "short-range bonds up to {}", options.short_range_cut_off);
   PERIMORPH_ASSERT(!elasticity_.has_dilatation() || options.operator_form != OperatorForm::crs,

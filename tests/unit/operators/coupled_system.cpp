@@ -34,8 +34,8 @@ class CoupledSystem
   }()};
   discretization::Loads<2> loads{{{"top", {Point2(0.3, 1.), Point2(0., 0.5)}}}, {Point2(0.1, -0.2), Point2::Zero()}};
   base::Profile profile;
-  operators::CoupledSystem<2> system{*body.comm,      body.topology, body.dirichlet, loads,
-                                     body.elasticity, options(),     profile,        eigenstrain()};
+  operators::CoupledSystem<2> system{*body.comm, body.topology, body.dirichlet, loads, {body.elasticity, eigenstrain()},
+                                     options(),  profile};
   std::vector<double> u;
 
   static operators::SystemOptions options() {

@@ -28,18 +28,22 @@ struct SystemOptions {
   double friction = 0.;             ///< coefficient, of crack faces in contact [-]
 };
 
+/// What decides which stress a strain makes.
+template <int dim>
+struct ElasticResponse {
+  MorphedStiffness<dim> elasticity;                   ///< of the materials, without bonds yet
+  discretization::Eigenstrain<dim> eigenstrain = {};  ///< at the topology's points
+};
+
 /// The balance of the coupled model as a list of terms on a space: local elements, bonds, anchors; against them the
 /// loads. Another term joins in make_terms().
 template <int dim>
 class CoupledSystem : public NonlinearSystem {
  public:
   /// The arguments must outlive this. It has no terms before the first assemble().
-  /// @param elasticity of the material, without bonds yet
-  /// @param eigenstrain at the topology's points
   CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
                 const discretization::Dirichlet<dim>& dirichlet, const discretization::Loads<dim>& loads,
-                MorphedStiffness<dim> elasticity, SystemOptions options, base::Profile& profile,
-                discretization::Eigenstrain<dim> eigenstrain = {});
+                ElasticResponse<dim> response, SystemOptions options, base::Profile& profile);
 
   /// E(x) follows alpha, bonds and classes of the topology. Collective.
   void follow_morphing();
