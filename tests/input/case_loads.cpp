@@ -70,6 +70,61 @@ TEST_F(CaseFile, APressureIsReadAndItsGroupChecked) {
       HasSubstr("/Boundary Conditions/Pressures/gas/Group: the mesh plate.msh has no group of sides called \"tpo\""));
 }
 
+// --- temperatures ---
+
+const std::string cold = "Boundary Conditions/Temperatures/cold/", alpha_t = "Material/Thermal Expansion=1e-5";
+
+TEST_F(CaseFile, ATemperatureAndItsProfileAreRead) {
+  const perimorph::cases::Case input =
+      read(valid, {cold + "Rate=-30", cold + "Direction={0, 2}", cold + "Positions={0, 4}", cold + "Factors={1, 0}",
+                   alpha_t, "Loading/Increments=6", "Loading/Steps/up/Increments=6",
+                   "Loading/Steps/up/Conditions={pull, wind, cold}", "Loading/Steps/up/Values={1, 1, 3}"});
+  const auto problem = perimorph::cases::make_problem<2>(input);
+  ASSERT_EQ(problem.temperature_changes.size(), 1u);
+  const auto& change = problem.temperature_changes[0];
+  EXPECT_EQ(change.value.at(6.), -90.);
+  EXPECT_TRUE(change.blocks.empty());
+  EXPECT_EQ(change.profile->direction, perimorph::base::Point<2>(0., 1.));
+  EXPECT_EQ(change.profile->factor.at(3.), 0.25);
+  EXPECT_EQ(problem.materials[0].thermal_expansion, 1e-5);
+  EXPECT_FALSE(problem.is_proportional);
+}
+
+TEST_F(CaseFile, ATemperatureIsProportionalWithoutAConstant) {
+  EXPECT_TRUE(perimorph::cases::make_problem<2>(read(valid, {cold + "Rate=-30", alpha_t})).is_proportional);
+  EXPECT_FALSE(perimorph::cases::make_problem<2>(read(valid, {cold + "Constant=-30", alpha_t})).is_proportional);
+}
+
+TEST_F(CaseFile, InPlaneStrainABodyExpandsMoreInThePlane) {
+  const perimorph::cases::Case input =
+      read(valid, {cold + "Rate=-30", alpha_t, "Material/Elastic Model=Plane Strain", "Material/Poisson's Ratio=0.3"});
+  EXPECT_DOUBLE_EQ(perimorph::cases::make_problem<2>(input).materials[0].thermal_expansion, 1.3e-5);
+}
+
+TEST_F(CaseFile, MistakesOfTemperaturesAreNamed) {
+  const std::string rate = cold + "Rate=-30", direction = cold + "Direction={0, 1}",
+                    positions = cold + "Positions={0, 4}", factors = cold + "Factors={1, 0}",
+                    at = "/Boundary Conditions/Temperatures/cold/";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
+      {{rate}, "/Material/Thermal Expansion: found 0 in all materials in which /Boundary Conditions/Temperatures/cold"},
+      {{rate, alpha_t, direction}, at + "Positions: missing; a profile needs"},
+      {{rate, alpha_t, positions, factors}, at + "Direction: missing; a profile needs"},
+      {{rate, alpha_t, cold + "Direction={0, 1, 0}", positions, factors}, at + "Direction: found"},
+      {{rate, alpha_t, cold + "Direction={0, 0}", positions, factors},
+       at + "Direction: found {0, 0}; allowed is a direction that is not zero"},
+      {{rate, alpha_t, direction, cold + "Positions={4, 4}", factors},
+       at + "Positions: found {4, 4}; allowed are two or more, each greater than the one before"},
+      {{rate, alpha_t, direction, positions, cold + "Factors={1}"},
+       at + "Factors: found 1 for 2 of \"Positions\"; allowed is one for each"},
+      {{rate, alpha_t, cold + "Blocks={}"}, at + "Blocks: found none; allowed are the names of one block or more"},
+      {{rate, alpha_t, cold + "Blocks={bdoy}", "Solver/Tolerence=1"},
+       at + "Blocks: the mesh plate.msh has no group of elements called \"bdoy\""},
+      {{rate, alpha_t, "Loading/Increments=8", "Loading/Steps/up/Increments=8",
+        "Loading/Steps/up/Conditions={pull, wind}", "Loading/Steps/up/Values={4, 1}"},
+       at + "Rate: found, but no step in /Loading/Steps names this condition"}};
+  for (const auto& [options, text] : mistakes) EXPECT_THAT(error(valid, options), HasSubstr(text)) << text;
+}
+
 // --- steps of the load ---
 
 TEST_F(CaseFile, StepsGiveConditionsTheirAmplitudes) {

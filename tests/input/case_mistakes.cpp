@@ -475,6 +475,9 @@ TEST_F(CaseFile, MistakesOfMaterialsAreNamed) {
       {{"Loading/Softening Tolerance=0.01"}, "/Loading/Softening Tolerance: found 0.01, but no bonds soften"},
       {{"Boundary Conditions/Self-Weight/Constant={0, -9810}"},
        "/Material/Density: found 0; /Boundary Conditions/Self-Weight needs a density above 0"},
+      {{"Boundary Conditions/Temperatures/cold/Rate=-1", "Boundary Conditions/Temperatures/cold/Blocks={body}",
+        path + "Thermal Expansion=0", "Material/Thermal Expansion=1e-5"},
+       "/Material/Thermal Expansion: found 0 in all materials in which /Boundary Conditions/Temperatures/cold changes"},
       {{"Boundary Conditions/Self-Weight/Constant={0, -9810, 0}", "Material/Density=1", path + "Density=1"},
        "/Boundary Conditions/Self-Weight/Constant: found"},
   };

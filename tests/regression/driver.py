@@ -121,6 +121,19 @@ class Runs(Plate):
             self.assertAlmostEqual(u.max(), 0.4)  # the corners: rate 0.2, second increment
             self.assertAlmostEqual(u.min(), -0.4)
 
+    def test_the_fields_of_a_heated_body_say_by_how_much_it_expands(self):
+        self.write_case({"Material/Thermal Expansion": 1e-5, "Boundary Conditions/Temperatures": {
+            "cold": {"Rate": -20.0, "Direction": [0.0, 1.0], "Positions": [0.0, 12.0], "Factors": [1.0, 0.0]}}})
+        self.assertEqual(self.run_case(ranks=2).returncode, 0)
+        with netCDF4.Dataset(self.series()[0]) as file:
+            place = text_of(file["name_elem_var"]).index("eigenstrain") + 1
+            blocks = range(1, len(text_of(file["eb_names"])) + 1)
+            values = numpy.concatenate([file[f"vals_elem_var{place}eb{block}"][0] for block in blocks
+                                        if f"vals_elem_var{place}eb{block}" in file.variables])
+        self.assertEqual(len(values), N * N)
+        self.assertAlmostEqual(values.min(), -2e-4 * 11.5 / 12, places=12)
+        self.assertAlmostEqual(values.max(), -2e-4 * 0.5 / 12, places=12)
+
     def test_the_exodus_files_carry_program_and_case(self):
         self.assertEqual(self.run_case().returncode, 0)
         resolved = xml.etree.ElementTree.parse(self.output / "resolved.xml").getroot()

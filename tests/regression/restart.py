@@ -249,6 +249,40 @@ class LoadSteps(GrowingCrack):
                     self.assert_continues(whole, stop, *EVERY, ranks=ranks)
 
 
+class Heated(GrowingCrack):
+    """Cooled more at its bottom than at its top, and then pulled until it breaks."""
+
+    CASE = changed(GrowingCrack.CASE, {
+        "Material/Thermal Expansion": 1e-5,
+        "Boundary Conditions/Temperatures": {
+            "cold": {"Rate": -400.0, "Direction": [0.0, 1.0], "Positions": [0.0, 12.0], "Factors": [1.5, 0.5]}},
+        "Loading/Steps": {"cool": {"Increments": 4, "Conditions": ["cold"], "Values": [4.0]},
+                          "pull": {"Increments": 12, "Conditions": ["cold", "pull down", "pull up"], "Values": [5.0, 14.0, 14.0]}}})
+    SOFT = {"Material/Critical Stretch": None, "Material/Bond Law": "Bilinear", "Material/Tensile Strength": 15.0,
+            "Material/Fracture Energy": 2.0}
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for changes in [{}, {"Material/Poisson's Ratio": 0.2}, {"Peridynamics/Crack Faces": "Contact"}, self.SOFT]:
+            self.write_case(changes)
+            for ranks, stop in [(1, 3), (1, 13), (2, 14), (4, 2)]:
+                with self.subTest(ranks=ranks, stop=stop, changes=changes):
+                    self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                    whole = self.outcome()
+                    self.assertGreater(float(whole[0][3]["elastic_energy"]), 0.1)
+                    self.assertGreater(int(whole[0][-1]["broken_bonds"]), 20)
+                    self.assert_continues(whole, stop, *EVERY, ranks=ranks)
+
+    def test_on_more_ranks_the_same_bonds_break(self):
+        self.run_until(INCREMENTS)
+        alone = self.rows()
+        for ranks in [2, 4]:
+            self.run_until(INCREMENTS, ranks=ranks)
+            for row, other in zip(alone, self.rows(), strict=True):
+                self.assertEqual(row["broken_bonds"], other["broken_bonds"])
+                self.assertAlmostEqual(float(row["external_work"]), float(other["external_work"]),
+                                       delta=1e-4 * float(row["external_work"]))
+
+
 class Cycles(GrowingCrack):
     """Pulled and let go twice, further in the second stage, whose course is that of a table."""
 

@@ -50,6 +50,8 @@ struct SpecimenIn {
   double friction = 0.;  ///< coefficient
   std::vector<discretization::RigidGroup> rigid_groups = {};
   std::optional<double> compressive_strength = {};  ///< none: that of bonds which break by their stretch alone
+  double thermal_expansion = 0.;  ///< of the body's material, as data sheets give it
+  std::vector<discretization::TemperatureChange<dim>> temperature_changes = {};
 };
 using Specimen = SpecimenIn<2>;
 
@@ -60,6 +62,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   const double poissons_ratio = specimen.poissons_ratio.value_or(materials::bond_based_poissons_ratio(model));
   auto material = materials::elastic_material<dim>(model, youngs_modulus, poissons_ratio,
                                                    specimen.characteristic_length, specimen.horizon);
+  material.thermal_expansion = specimen.thermal_expansion * materials::expansion_factor(model, poissons_ratio);
   const materials::BondLaw law = specimen.law.value_or(specimen.critical_stretch);
   material.toughness = {law, materials::fracture_energy<dim>(material.micromodulus, std::sqrt(2. * law.area()),
                                                              material.dilatational_ratio)};
@@ -86,6 +89,7 @@ model::Problem<dim> make_problem(const SpecimenIn<dim>& specimen) {
   problem.crack_faces = specimen.crack_faces;
   problem.friction = specimen.friction;
   problem.rigid_groups = specimen.rigid_groups;
+  problem.temperature_changes = specimen.temperature_changes;
   return problem;
 }
 

@@ -90,6 +90,17 @@ class WhatTheProgramSays(Preview):
         self.assertEqual(values["Self-Weight"], [[0, 0], [0, -9.81], [0, -9.81], [0, -9.81]])
         numpy.testing.assert_allclose(values["pull up"], [[0], [0], [0.8], [0.4]], rtol=1e-14)  # half of the last stage is run
 
+    def test_temperatures_have_a_profile_and_no_direction(self):
+        data = self.data({"Material/Thermal Expansion": 1e-5, "Boundary Conditions/Temperatures": {
+            "cold": {"Rate": -20.0, "Blocks": ["body"]},
+            "upper side": {"Constant": 5.0, "Direction": [0.0, 1.0], "Positions": [0.0, 12.0], "Factors": [-0.5, 1.0]}}})
+        rows = {row[0]: row[1:] for row in case_tables.conditions(data)}
+        self.assertEqual(rows["cold"], ["body", "ΔT", "−60"])
+        self.assertEqual(rows["upper side"], ["all of the body, along (0, 1) times −0.5 at 0, 1 at 12", "ΔT", "5"])
+        self.assertEqual(case_tables.materials(data)[0], ["", "E", "ν", "α_T", "l", "s_crit", "G_c", "blocks"])
+        labels = [text.get_text() for text in Drawn(data, 0).axes.texts]
+        self.assertIn("cold\n$ΔT$ = −60\nbody", labels)
+
     def test_without_stages_values_are_those_of_the_last_increment(self):
         data = self.data()
         self.assertEqual(data.stages, ["run"])

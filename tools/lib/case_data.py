@@ -30,15 +30,17 @@ def value_of(kind, text):
 
 
 class Condition:
-    """A prescribed displacement, traction, pressure or body force. values: before the first increment and at the end of each
-    stage, (stages + 1, 1 or dimensions); largest: in each stage; n_stages: before it is released. Where a measure decides on the
-    load, values are those without it and at a load factor of 1."""
+    """A prescribed displacement, traction, pressure, temperature or body force. values: before the first increment and at the end
+    of each stage, (stages + 1, 1 or dimensions); largest: in each stage; n_stages: before it is released. Where a measure
+    decides on the load, values are those without it and at a load factor of 1."""
 
     def __init__(self, kind, name, entry, n_dimensions):
         self.kind, self.name, self.group = kind, name, entry.get("Group")
         self.component = entry.get("Component", -1)  # of displacements; 3 to 5 are rotations; -1: along a direction
-        self.along = entry.get("Direction")
-        n_values = 1 if kind in ("Displacements", "Pressures") else n_dimensions
+        self.along = entry.get("Direction") if kind == "Displacements" else None
+        self.blocks = entry.get("Blocks", "").strip("{}")
+        self.profile = [entry[key] for key in ("Direction", "Positions", "Factors") if key in entry] if kind == "Temperatures" else []
+        n_values = 1 if kind in ("Displacements", "Pressures", "Temperatures") else n_dimensions
         self.values, self.largest = (entry[key].reshape(-1, n_values) for key in ("Values", "Largest"))
         self.n_stages, self.n_dimensions = entry["Stages"], n_dimensions
 
@@ -46,8 +48,18 @@ class Condition:
     def symbol(self):
         """What its values are called."""
         moved = "u_d" if self.along is not None else ("u_" if self.component < 3 else "φ_") + AXES[self.component % 3]
-        return {"Displacements": moved, "Tractions": "t", "Pressures": "p", "Body Force": "b",
+        return {"Displacements": moved, "Tractions": "t", "Pressures": "p", "Temperatures": "ΔT", "Body Force": "b",
                 "Self-Weight": "g"}[self.kind]
+
+    @property
+    def place(self):
+        """What it acts on, in words."""
+        blocks = self.blocks or "all of the body"
+        if not self.profile:
+            return self.group or blocks
+        direction, positions, factors = self.profile
+        course = ", ".join(f"{factor:.5g} at {position:.5g}" for position, factor in zip(positions, factors))
+        return f"{blocks}, along {numbers_text(direction)} times {course}".replace("-", "−")
 
     @property
     def axis(self):
@@ -70,11 +82,11 @@ class Condition:
         return stage >= self.n_stages or (self.kind != "Displacements" and not self.value(stage).any())
 
     def direction(self, stage):
-        """Where it acts in a stage, of length 1; None for pressures, which follow the normal, and rotations."""
+        """Where it acts in a stage, of length 1; None for pressures, which follow the normal, rotations and temperatures."""
         value = self.value(stage)
         if self.kind == "Displacements":
             return None if self.axis is None else numpy.sign(value[0]) * self.axis
-        return None if self.kind == "Pressures" else of_length_one(value)
+        return None if self.kind in ("Pressures", "Temperatures") else of_length_one(value)
 
     def text(self, stage, follows_measure):
         """Its value at the end of a stage, and the largest in it where that lies beyond both ends; and its direction."""

@@ -10,8 +10,8 @@ from matplotlib.patches import Patch
 import case_tables
 from case_data import AXES, of_length_one
 from case_look import Hull, edges_of
-from case_symbols import (ABOVE, BODY_FORCE, COLOURS, FAINT, SUPPORT, Labels, across, arrow_ends, draw_arrow, draw_support, draw_turn,
-                          evenly)
+from case_symbols import (ABOVE, BODY_FORCE, COLOURS, FAINT, HEAT, SUPPORT, Labels, across, arrow_ends, draw_arrow, draw_support,
+                          draw_turn, evenly)
 
 TINTS = ["#dfe6ee", "#f0dfc4", "#dcead6", "#ead9e8", "#e3e3d3", "#d5e8ea"]  # of materials
 CRACK, MEASURED, PROBE, MIXED = "#7a1010", "#0f7f7f", "#c98a1b", "#333333"
@@ -286,9 +286,13 @@ def draw_group(drawing, labels, group, conditions, stage):
 
 
 def draw_everywhere(drawing, labels, conditions, stage):
-    """A body force: one arrow in the middle."""
+    """A body force: one arrow in the middle; a temperature: words alone."""
     middle = drawing.look.flat(0.5 * (drawing.data.box[0] + drawing.data.box[1]))
     for place, condition in enumerate(conditions):
+        if condition.kind == "Temperatures":
+            text = "\n".join([escaped(condition.name), *value_lines(drawing.data, [condition], stage), escaped(condition.place)])
+            labels.put(text, middle, numpy.zeros(2), HEAT)
+            continue
         along = drawing.look.flat(condition.direction(stage))
         tail = middle + place * across(along) * 3 * drawing.symbol
         ends = draw_arrow(drawing.axes, tail, tail + 2.6 * drawing.symbol * along, BODY_FORCE, False)

@@ -6,8 +6,9 @@ import numpy
 
 from case_data import of_length_one
 
-SUPPORT, MOVED, FORCE, BODY_FORCE = "#2b6e3f", "#1f5fa8", "#c8442c", "#8a5bb0"
-COLOURS = {"Displacements": MOVED, "Tractions": FORCE, "Pressures": FORCE, "Body Force": BODY_FORCE, "Self-Weight": BODY_FORCE}
+SUPPORT, MOVED, FORCE, BODY_FORCE, HEAT = "#2b6e3f", "#1f5fa8", "#c8442c", "#8a5bb0", "#b07a1e"
+COLOURS = {"Displacements": MOVED, "Tractions": FORCE, "Pressures": FORCE, "Body Force": BODY_FORCE, "Self-Weight": BODY_FORCE,
+           "Temperatures": HEAT}
 ABOVE = 6  # zorder of symbols; the body is below
 FAINT = 0.3  # what the body hides
 

@@ -19,7 +19,7 @@ def extents(data):
 
 def materials(data):
     """A row each; columns that no material has are left out."""
-    columns = {"Young's Modulus": "E", "Poisson's Ratio": "ν", "Density": "ρ", "Tensile Strength": "f_t",
+    columns = {"Young's Modulus": "E", "Poisson's Ratio": "ν", "Density": "ρ", "Thermal Expansion": "α_T", "Tensile Strength": "f_t",
                "Compressive Strength": "f_c", "Characteristic Length": "l", "Critical Stretch": "s_crit", "Fracture Energy": "G_c"}
     entries = data.table["Materials"]
     used = [name for name in columns if any(name in entry for entry in entries.values())]
@@ -90,7 +90,7 @@ def stage_names(data):
 def condition_row(data, condition):
     """Name, group, symbol, and the values in each stage."""
     values = [condition.text(stage, data.follows_measure) for stage in range(len(stage_names(data)))]
-    return [condition.name, condition.group or "all of the body", condition.symbol, *values]
+    return [condition.name, condition.place, condition.symbol, *values]
 
 
 def conditions(data):

@@ -124,6 +124,14 @@ void put_conditions(const cases::Case& input, ParameterList& list) {
   }
   for (const auto& t : all.tractions) conditions.put("Tractions", t.name, t.rate, t.constant).set("Group", t.group);
   for (const auto& p : all.pressures) conditions.put("Pressures", p.name, {p.rate}, {p.constant}).set("Group", p.group);
+  for (const auto& t : all.temperatures) {
+    auto& one = conditions.put("Temperatures", t.name, {t.rate}, {t.constant});
+    if (!t.blocks.empty()) one.set("Blocks", Teuchos::Array<std::string>(t.blocks));
+    if (t.direction.empty()) continue;
+    one.set("Direction", Numbers(t.direction));
+    one.set("Positions", Numbers(t.positions));
+    one.set("Factors", Numbers(t.factors));
+  }
   conditions.put_everywhere("Body Force", all.body_force_rate, all.body_force_constant);
   conditions.put_everywhere("Self-Weight", all.self_weight_rate, all.self_weight_constant);
 }
@@ -151,6 +159,7 @@ void put_materials(const cases::Case& input, const model::Problem<dim>& problem,
     one.set("Young's Modulus", solids[m].youngs_modulus);
     one.set("Poisson's Ratio", solids[m].poissons_ratio);
     if (solids[m].density > 0.) one.set("Density", solids[m].density);
+    if (solids[m].thermal_expansion != 0.) one.set("Thermal Expansion", solids[m].thermal_expansion);
     if (solids[m].tensile_strength) one.set("Tensile Strength", *solids[m].tensile_strength);
     if (solids[m].compressive_strength) one.set("Compressive Strength", *solids[m].compressive_strength);
     one.set("Characteristic Length", problem.materials[m].micromodulus.characteristic_length);

@@ -199,14 +199,18 @@ typename BondFamilies<dim>::Extremes BondFamilies<dim>::neighbourhood_extremes(
   return extremes;
 }
 
-/// visit(bond, |xi + eta|^2 / |xi|^2, its law) where the stretch reaches threshold(its law)
+/// visit(bond, s, its law) where the stretch s reaches threshold(its law); s is beyond the eigenstrain
 template <int dim>
 template <class Threshold, class Visit>
-void BondFamilies<dim>::for_each_stretched(const std::vector<Point<dim>>& displacements,
+void BondFamilies<dim>::for_each_stretched(const AtPoints& at_points,
                                            const std::vector<morphing::ElementClass>& classes, Threshold threshold,
                                            Visit visit) const {
+  const std::vector<Point<dim>>& displacements = at_points.displacements;
+  const std::vector<double>& eigenstrain = at_points.eigenstrain;
   PERIMORPH_ASSERT(static_cast<int>(displacements.size()) == points_.size(), "{} displacements of {} points",
                    displacements.size(), points_.size());
+  PERIMORPH_ASSERT(eigenstrain.empty() || eigenstrain.size() == displacements.size(), "eigenstrain at {} of {} points",
+                   eigenstrain.size(), displacements.size());
   PERIMORPH_ASSERT(static_cast<int>(classes.size()) == mesh_.n_elements(), "{} classes of {} elements", classes.size(),
                    mesh_.n_elements());
   for (int p = 0; p < n_pairs(); ++p) {
@@ -217,21 +221,24 @@ void BondFamilies<dim>::for_each_stretched(const std::vector<Point<dim>>& displa
     }
     // s = |xi + eta| / |xi| - 1 >= s_crit, without the roots   [WHL19, eq. 6, 7]
     const materials::BondLaw& law = materials_.law(first, second);
-    const double least = (1. + threshold(law)) * (1. + threshold(law));
+    const double limit = 1. + threshold(law);
     for_each_bond(p, [&](const Bond<dim>& bond) {
       if (bond.is_broken) return;
       const Point<dim> eta = displacements[bond.second_point] - displacements[bond.first_point];
       PERIMORPH_DEBUG_ASSERT(eta.allFinite(), "a point of bond {} is displaced to nowhere", bond.id);
-      if ((bond.xi + eta).squaredNorm() < least * bond.xi.squaredNorm()) return;
-      visit(bond, (bond.xi + eta).squaredNorm() / bond.xi.squaredNorm(), law);
+      const double free =
+          eigenstrain.empty() ? 0. : 0.5 * (eigenstrain[bond.first_point] + eigenstrain[bond.second_point]);
+      const double least = limit + free;
+      if ((bond.xi + eta).squaredNorm() < least * least * bond.xi.squaredNorm()) return;
+      visit(bond, std::sqrt((bond.xi + eta).squaredNorm() / bond.xi.squaredNorm()) - 1. - free, law);
     });
   }
 }
 
+/// What counts of a bond's stretch.
 template <int dim>
-double BondFamilies<dim>::counted_stretch(const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law,
+double BondFamilies<dim>::counted_stretch(const Bond<dim>& bond, double stretch, const materials::BondLaw& law,
                                           const std::vector<double>& dilatation) const {
-  const double stretch = std::sqrt(squared_ratio) - 1.;
   if (!law.sees_compression()) return stretch;
   return law.counted_stretch(stretch, 0.5 * (dilatation[bond.first_point] + dilatation[bond.second_point]));
 }
@@ -245,17 +252,17 @@ void BondFamilies<dim>::check_dilatation(const std::vector<double>& dilatation) 
 template <int dim>
 std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim>>& displacements,
                                                      const std::vector<morphing::ElementClass>& classes, double ratio,
-                                                     const std::vector<double>& dilatation) const {
+                                                     const PointStrains& strains) const {
   PERIMORPH_ASSERT(ratio >= 0., "{} times a limit", ratio);
-  check_dilatation(dilatation);
+  check_dilatation(strains.dilatation);
   std::vector<double> ratios;
   for_each_stretched(
-      displacements, classes, [&](const materials::BondLaw& law) { return ratio * law.limit(); },
-      [&](const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law) {
+      {displacements, strains.eigenstrain}, classes, [&](const materials::BondLaw& law) { return ratio * law.limit(); },
+      [&](const Bond<dim>& bond, double stretch, const materials::BondLaw& law) {
         if (bond.first_element >= mesh_.n_owned_elements) return;
-        const double stretch = counted_stretch(bond, squared_ratio, law, dilatation);
-        if (law.sees_compression() && stretch < ratio * law.limit()) return;
-        ratios.push_back(stretch / law.limit());
+        const double counted = counted_stretch(bond, stretch, law, strains.dilatation);
+        if (law.sees_compression() && counted < ratio * law.limit()) return;
+        ratios.push_back(counted / law.limit());
       });
   return ratios;
 }
@@ -263,18 +270,17 @@ std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim
 template <int dim>
 std::vector<BondId> BondFamilies<dim>::overstretched(const std::vector<Point<dim>>& displacements,
                                                      const std::vector<morphing::ElementClass>& classes, double ratio,
-                                                     const std::vector<double>& dilatation) const {
+                                                     const PointStrains& strains) const {
   PERIMORPH_ASSERT(ratio >= 0., "{} times a critical stretch", ratio);
-  check_dilatation(dilatation);
+  check_dilatation(strains.dilatation);
   std::vector<BondId> found;
   for_each_stretched(
-      displacements, classes, [&](const materials::BondLaw& law) { return ratio * law.critical_stretch(); },
-      [&](const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law) {
-        if (law.sees_compression() &&
-            counted_stretch(bond, squared_ratio, law, dilatation) < ratio * law.critical_stretch()) {
-          return;
-        }
-        found.push_back(bond.id);
+      {displacements, strains.eigenstrain}, classes,
+      [&](const materials::BondLaw& law) { return ratio * law.critical_stretch(); },
+      [&](const Bond<dim>& bond, double stretch, const materials::BondLaw& law) {
+        const bool is_cut_short = law.sees_compression() && counted_stretch(bond, stretch, law, strains.dilatation) <
+                                                                ratio * law.critical_stretch();
+        if (!is_cut_short) found.push_back(bond.id);
       });
   return found;
 }
@@ -282,16 +288,17 @@ std::vector<BondId> BondFamilies<dim>::overstretched(const std::vector<Point<dim
 template <int dim>
 std::vector<SoftenedBond> BondFamilies<dim>::softened(const std::vector<Point<dim>>& displacements,
                                                       const std::vector<morphing::ElementClass>& classes,
-                                                      bool may_recover) const {
+                                                      bool may_recover, const std::vector<double>& eigenstrain) const {
   constexpr float further = 1.5F, almost = 0.999F;
   std::vector<SoftenedBond> found;
   if (!softens_) return found;
   for_each_stretched(
-      displacements, classes, [](const materials::BondLaw& law) { return law.softens() ? -1. : law.limit(); },
-      [&](const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law) {
+      {displacements, eigenstrain}, classes,
+      [](const materials::BondLaw& law) { return law.softens() ? -1. : law.limit(); },
+      [&](const Bond<dim>& bond, double stretch_now, const materials::BondLaw& law) {
         const auto [accepted, before] = softening_[bond.id];
         const auto limit = static_cast<float>(law.limit()), critical = static_cast<float>(law.critical_stretch());
-        const auto now = static_cast<float>(std::sqrt(squared_ratio) - 1.);
+        const auto now = static_cast<float>(stretch_now);
         if (now >= critical) return;
         float stretch = std::max(now > limit ? now : 0.F, may_recover ? accepted : before);
         if (stretch > before && may_recover) {

@@ -37,6 +37,7 @@ class Advice {
 
   std::vector<std::string> all() {
     check_density();
+    check_expansion();
     check_faces();
     if (input_.morphing.seeds.empty()) return std::move(lines_);
     check_length();
@@ -63,6 +64,13 @@ class Advice {
     const auto solids = solids_of(input_);
     if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.density > 0.; })) return;
     add("/Boundary Conditions/Self-Weight", "is zero; without it densities have no effect");
+  }
+
+  void check_expansion() {
+    if (!input_.boundary_conditions.temperatures.empty()) return;
+    const auto solids = solids_of(input_);
+    if (std::none_of(solids.begin(), solids.end(), [](const Solid& s) { return s.thermal_expansion != 0.; })) return;
+    add("/Boundary Conditions/Temperatures", "has none; without it thermal expansions have no effect");
   }
 
   void check_faces() {

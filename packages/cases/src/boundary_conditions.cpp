@@ -177,6 +177,11 @@ void declare(const input::Section& section, BoundaryConditions& conditions) {
                   "Pressures on parts of the boundary, along their normals in the undeformed body, each a list with a "
                   "name of your choice. In increment k the pressure is Rate * k + Constant.",
                   "The pressure on one group.");
+  section.entries("Temperatures", conditions.temperatures, declare,
+                  "Changes of temperature from the state without stress, or of moisture in a body that shrinks as it "
+                  "dries, each a list with a name of your choice. In increment k the change is Rate * k + Constant; "
+                  "changes in the same place add up. They strain the body by the Thermal Expansion of its materials.",
+                  "One change of temperature.");
   const auto body = section.section("Body Force", "Force per volume: Rate * k + Constant in increment k.");
   const auto vector = numbers("{x, y} or {x, y, z}");
   body.parameter("Rate", conditions.body_force_rate, vector,
@@ -233,6 +238,7 @@ bool BoundaryConditions::are_proportional() const {
                      [&](const auto& d) { return is_zero(d.value.constant); }) &&
          std::all_of(tractions.begin(), tractions.end(), [&](const auto& t) { return all_zero(t.constant); }) &&
          std::all_of(pressures.begin(), pressures.end(), [&](const auto& p) { return is_zero(p.constant); }) &&
+         std::all_of(temperatures.begin(), temperatures.end(), [&](const auto& t) { return is_zero(t.constant); }) &&
          all_zero(body_force_constant) && all_zero(self_weight_constant);
 }
 

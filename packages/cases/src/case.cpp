@@ -66,6 +66,7 @@ void check(const Resolved& resolved, const std::string& folder, Mistakes& mistak
   check_morphing(root.sub("Morphing"), *dimension);
   for (const auto& crack : root.subs("Pre-Cracks")) check_pre_crack(crack, *dimension);
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);
+  check_temperatures(root, *dimension);
   check_solver(root.sub("Solver"), has_dilatation(root), softens(root),
                !root.sub("Boundary Conditions").subs("Rigid Groups").empty());
   check_loading(root.sub("Loading"), *dimension, softens(root), breaks(root));

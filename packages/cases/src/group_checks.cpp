@@ -28,7 +28,8 @@ class GroupChecks {
     is_held.merge(check_conditions("Rigid Groups", mesh_.node_sets, "nodes"));
     check_conditions("Tractions", mesh_.side_sets, "sides");
     check_conditions("Pressures", mesh_.side_sets, "sides");
-    check_blocks();
+    check_blocks(list_.sublist("Materials"), "/Materials/");
+    check_blocks(list_.sublist("Boundary Conditions").sublist("Temperatures"), "/Boundary Conditions/Temperatures/");
     check_measure();
     const ParameterList& output = list_.sublist("Output");
     if (!output.isParameter("Reactions")) return;
@@ -61,15 +62,15 @@ class GroupChecks {
     }
   }
 
-  void check_blocks() {
+  /// Those that the entries of a section name.
+  void check_blocks(const ParameterList& entries, const std::string& path) {
     std::map<std::string, int> blocks;
     for (const auto& name : mesh_.block_names) blocks[name] = 0;
-    const ParameterList& materials = list_.sublist("Materials");
-    for (const auto& item : materials) {
-      const ParameterList& material = materials.sublist(item.first);
-      if (!material.isParameter("Blocks")) continue;
-      for (const auto& block : material.get<Teuchos::Array<std::string>>("Blocks")) {
-        check("/Materials/" + item.first + "/Blocks", block, blocks, "elements");
+    for (const auto& item : entries) {
+      const ParameterList& entry = entries.sublist(item.first);
+      if (!entry.isParameter("Blocks")) continue;
+      for (const auto& block : entry.get<Teuchos::Array<std::string>>("Blocks")) {
+        check(path + item.first + "/Blocks", block, blocks, "elements");
       }
     }
   }

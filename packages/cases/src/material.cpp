@@ -253,6 +253,14 @@ void declare_density(const input::Section& section, Solid& solid) {
                     "concrete and 7.85e-9 for steel.");
 }
 
+void declare_expansion(const input::Section& section, Solid& solid) {
+  section.parameter(
+      "Thermal Expansion", solid.thermal_expansion, input::any_number(),
+      "alpha_T [1/temperature], for Boundary Conditions/Temperatures: the strain that a degree makes where "
+      "nothing is held, such as 1e-5/K for concrete and 1.2e-5/K for steel. With a change of moisture in "
+      "place of temperature, the shrinkage of drying. Bonds break by what they are stretched beyond it.");
+}
+
 }  // namespace
 
 void declare(const input::Section& section, Material& material) {
@@ -272,6 +280,7 @@ void declare(const input::Section& section, Material& material) {
       "it is: then the fracture energy that is printed is greater. In three dimensions, where cracks are hardly held "
       "up, and with three points per direction it is as \"Analytic\".");
   declare_density(section, material);
+  declare_expansion(section, material);
   section.changeable().parameter("Name", material.name, text("a name"),
                                  "How Interfaces and results call the material.");
 }
@@ -286,6 +295,7 @@ void declare(const input::Section& section, Solid& solid) {
   section.optional("Characteristic Length", solid.characteristic_length, 0.1, above(0.),
                    "l [length] of its own in the micromodulus; that of Peridynamics if not given.");
   declare_density(section, solid);
+  declare_expansion(section, solid);
 }
 
 void declare(const input::Section& section, Interface& interface) {

@@ -67,6 +67,20 @@ discretization::Loads<dim> make_loads(const Case& input, Amplitudes& amplitudes)
 }
 
 template <int dim>
+std::vector<discretization::TemperatureChange<dim>> make_temperatures(const std::vector<Temperature>& temperatures,
+                                                                      Amplitudes& amplitudes) {
+  std::vector<discretization::TemperatureChange<dim>> changes;
+  for (const auto& t : temperatures) {
+    changes.push_back({amplitudes.ramp(t.name, t.rate, t.constant), t.blocks, std::nullopt});
+    if (t.direction.empty()) continue;
+    std::vector<discretization::PiecewiseLinear::Knot> knots;
+    for (std::size_t i = 0; i < t.positions.size(); ++i) knots.push_back({t.positions[i], t.factors[i]});
+    changes.back().profile = {point<dim>(t.direction).normalized(), discretization::PiecewiseLinear(std::move(knots))};
+  }
+  return changes;
+}
+
+template <int dim>
 std::optional<model::MeasureControl<dim>> make_control(const Loading& loading) {
   if (loading.control == Control::load) return std::nullopt;
   const MeasureControl& m = loading.measure;
@@ -128,6 +142,8 @@ materials::Material<dim> make_material(const Case& input, const Solid& solid, co
       solid.characteristic_length.value_or(peridynamics.characteristic_length), peridynamics.horizon);
   material.name = solid.name;
   material.compressive_strength = solid.compressive_strength;
+  material.thermal_expansion =
+      solid.thermal_expansion * materials::expansion_factor(input.material.elastic_model, solid.poissons_ratio);
   material.toughness =
       toughness_of(input.file + ": " + path, solid, material, material,
                    materials::fracture_energy<dim>(material.micromodulus, 1., material.dilatational_ratio));
@@ -184,6 +200,7 @@ model::Problem<dim> make_problem(const Case& input) {
     one.value = amplitudes.ramp(one.name, one.value.rate, one.value.constant);
     one = normalized(std::move(one));
   }
+  problem.temperature_changes = make_temperatures<dim>(input.boundary_conditions.temperatures, amplitudes);
   const auto is_common = [&](const auto& amplitude) { return *amplitude == *all.front(); };
   const auto& steps = input.loading.steps;
   const bool all_stay = std::all_of(steps.begin(), steps.end(), [](const Step& step) { return step.released.empty(); });

@@ -42,7 +42,7 @@ Conditions conditions_of(const Values& root) {
     found.emplace(name_of(one), Condition{one, has_rate, holds || has_rate || is_nonzero(one, "Constant")});
   };
   for (const auto& one : all.subs("Displacements")) add(one, true);
-  for (const char* kind : {"Tractions", "Pressures"}) {
+  for (const char* kind : {"Tractions", "Pressures", "Temperatures"}) {
     for (const auto& one : all.subs(kind)) add(one, false);
   }
   for (const char* kind : {"Body Force", "Self-Weight"}) add(all.sub(kind), false);

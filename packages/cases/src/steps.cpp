@@ -19,7 +19,7 @@ class Course {
 
   /// Not between increments that round alike.
   void go_to(double increment, double value) {
-    if (increment > end().increment) knots_.push_back({increment, value});
+    if (increment > end().place) knots_.push_back({increment, value});
   }
 
   Amplitude amplitude() && { return Amplitude(std::move(knots_)); }
@@ -29,7 +29,7 @@ class Course {
 };
 
 void follow_table(const Step& step, const std::vector<input::TableRow>& rows, Course& course) {
-  const double start = course.end().increment, first = rows.front().numbers[0], last = rows.back().numbers[0];
+  const double start = course.end().place, first = rows.front().numbers[0], last = rows.back().numbers[0];
   for (int cycle = 0; cycle < step.cycles.value_or(1); ++cycle) {
     for (std::size_t i = 1; i < rows.size(); ++i) {
       const double share = (rows[i].numbers[0] - first) / (last - first);
@@ -41,8 +41,8 @@ void follow_table(const Step& step, const std::vector<input::TableRow>& rows, Co
 void go_there_and_back(const Step& step, double value, Course& course) {
   const auto start = course.end();
   for (int cycle = 0; cycle < *step.cycles; ++cycle) {
-    course.go_to(start.increment + (cycle + 0.5) * step.increments, value);
-    course.go_to(start.increment + (cycle + 1.) * step.increments, start.value);
+    course.go_to(start.place + (cycle + 0.5) * step.increments, value);
+    course.go_to(start.place + (cycle + 1.) * step.increments, start.value);
   }
 }
 
@@ -51,7 +51,7 @@ void follow(const Step& step, const std::string& condition, Course& course) {
       std::find_if(step.tables.begin(), step.tables.end(), [&](const LoadTable& one) { return one.name == condition; });
   const auto found = std::find(step.conditions.begin(), step.conditions.end(), condition);
   const auto value = [&] { return step.values.at(static_cast<std::size_t>(found - step.conditions.begin())); };
-  const double end = course.end().increment + step.all_increments();
+  const double end = course.end().place + step.all_increments();
   if (table != step.tables.end()) {
     follow_table(step, table->rows, course);
   } else if (found == step.conditions.end()) {
@@ -68,10 +68,10 @@ void follow(const Step& step, const std::string& condition, Course& course) {
 void declare(const input::Section& section, Step& step) {
   using namespace input;
   section.required("Increments", step.increments, 10, count(), "Of this step; with \"Cycles\" of each of them.");
-  section.optional(
-      "Conditions", step.conditions, {"press"}, names("a list of conditions such as {press}"),
-      "Displacements, tractions and pressures by their names, \"Body Force\" and \"Self-Weight\". Those that are "
-      "neither listed here nor in \"Tables\" stay as they are.");
+  section.optional("Conditions", step.conditions, {"press"}, names("a list of conditions such as {press}"),
+                   "Displacements, tractions, pressures and temperatures by their names, \"Body Force\" and "
+                   "\"Self-Weight\". Those that are "
+                   "neither listed here nor in \"Tables\" stay as they are.");
   section.optional(
       "Values", step.values, {1.}, numbers("one number for each condition"),
       "What the Rate of each condition is multiplied by at the end of the step [-]; within it that changes "

@@ -56,7 +56,8 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       profile_(profile),
       topology_(comm, mesh, topology_options(mesh, problem, options)),
       dirichlet_(*comm, mesh, problem.displacements, problem.rigid_groups),
-      system_(*comm, topology_, dirichlet_, problem.loads, elasticity(mesh, problem, options),
+      system_(*comm, topology_, dirichlet_, problem.loads,
+              {elasticity(mesh, problem, options), model::eigenstrain(mesh, topology_.points(), problem)},
               system_options(options, problem.friction), profile),
       equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
@@ -127,8 +128,7 @@ void Body<dim>::rebuild(bool has_grown) {
 template <int dim>
 void Body<dim>::move_to_new_numbering() {
   state_.displacement = topology_.carried_over(state_.displacement);
-  const std::size_t n_owned = static_cast<std::size_t>(topology_.dofs().n_owned_nodes()) * dim;
-  work_.go_on_from(displacement(), std::vector<double>(n_owned, 0.));
+  work_.go_on_from(system_.moved(displacement()));
   state_.counts.unknowns = topology_.dofs().n_global_nodes() * dim;
   facing_sides_ = operators::facing_sides(mesh(), topology_.discontinuous());
 }
@@ -153,8 +153,9 @@ void Body<dim>::solve(Accuracy accuracy) {
   balance(accuracy);
   if (measure_) meet_measure(accuracy);
   const auto now_taken_up = work_.is_load_new() ? taken_up() : std::nullopt;
-  state_.energies.external_work += base::sum(*comm_, work_.up_to(displacement(), system_.internal_force(),
-                                                                 system_.loads(), power_of_supports(), now_taken_up));
+  state_.energies.external_work +=
+      base::sum(*comm_, work_.up_to(system_.moved(displacement()), system_.exerted(displacement()), system_.loads(),
+                                    power_of_supports(), now_taken_up));
 }
 
 template <int dim>
@@ -236,22 +237,24 @@ std::vector<double> Body<dim>::load_response() {
   return response;
 }
 
-/// Of this rank's: how fast they do work as the load factor grows, where bonds soften; 0 otherwise, [energy].
+/// Of this rank's, and of what expands it: how fast they do work as the load factor grows, where bonds soften; 0
+/// otherwise, [energy].
 template <int dim>
 double Body<dim>::power_of_supports() const {
   if (!topology_.bonds().softens()) return 0.;
   const auto rates = system_.space().prescribed_rates(state_.load_factor, state_.load_step);
-  const auto& force = system_.internal_force();
-  return std::inner_product(force.begin(), force.end(), rates.begin(), 0.);
+  const auto force = system_.exerted(displacement());
+  const auto with_eigenstrain = system_.moved(base::field(rates), system_.eigenstrain().rates(state_.load_step));
+  return std::inner_product(force.begin(), force.end(), with_eigenstrain.begin(), 0.);
 }
 
 /// Where nothing holds a part against its loads, or nothing but bonds that would break, that is why.
 template <int dim>
 std::string Body<dim>::reason_for(const std::string& trouble) const {
-  const auto& [u, stretch, contacts] = system_.at_points();
-  const auto reason =
-      operators::what_is_free(*comm_, model(), system_.space(), system_.loads(), contacts,
-                              topology_.bonds().overstretched(u, topology_.classes(), 1., system_.dilatation()));
+  const auto& [u, stretch, contacts, eigenstrain] = system_.at_points();
+  const bonds::PointStrains strains{eigenstrain, system_.dilatation()};
+  const auto reason = operators::what_is_free(*comm_, model(), system_.space(), system_.loads(), contacts,
+                                              topology_.bonds().overstretched(u, topology_.classes(), 1., strains));
   return reason.empty() ? trouble : reason;
 }
 
@@ -349,7 +352,8 @@ template <int dim>
 void Body<dim>::renew_forces() {
   system_.apply_load(state_.load_factor);
   system_.evaluate(displacement());
-  work_.go_on_from(displacement(), system_.internal_force(), power_of_supports(), state_.load_step, taken_up());
+  work_.go_on_from(system_.moved(displacement()), system_.exerted(displacement()), power_of_supports(),
+                   state_.load_step, taken_up());
 }
 
 /// By this rank's share of the body since the slips were last accepted, where the load is prescribed and contact may

@@ -14,11 +14,11 @@ namespace {
 /// stretch as far up to rounding, such as mirror images, go together.
 template <int dim>
 double breaking_ratio(const base::Comm& comm, const bonds::BondFamilies<dim>& bonds,
-                      const std::vector<base::Point<dim>>& u, const std::vector<double>& dilatation,
+                      const std::vector<base::Point<dim>>& u, const bonds::PointStrains& strains,
                       const std::vector<morphing::ElementClass>& classes, double fraction) {
   constexpr double rounding = 1e-12;  // of stretches
   if (fraction >= 1.) return 1.;
-  auto all = base::gather_on_all(comm, bonds.overstretches(u, classes, 1., dilatation));
+  auto all = base::gather_on_all(comm, bonds.overstretches(u, classes, 1., strains));
   if (all.empty()) return 1.;
   const auto n_worst = static_cast<long>(std::ceil(fraction * static_cast<double>(all.size())));
   std::nth_element(all.begin(), all.begin() + (n_worst - 1), all.end(), std::greater<>());
@@ -37,10 +37,12 @@ Damage find_damage(const base::Comm& comm, const operators::CoupledModel<dim>& m
                    "displacements at {} of {} points, {} classes", at_points.displacement.size(), model.points.size(),
                    classes.size());
   const auto& bonds = model.bonds;
-  const double ratio = breaking_ratio(comm, bonds, at_points.displacement, dilatation, classes, fraction);
+  const auto& u = at_points.displacement;
+  const bonds::PointStrains strains{at_points.eigenstrain, dilatation};
+  const double ratio = breaking_ratio(comm, bonds, u, strains, classes, fraction);
   bonds::BondChange change;
-  change.broken = bonds.overstretched(at_points.displacement, classes, ratio, dilatation);
-  change.softened = bonds.softened(at_points.displacement, classes, may_recover);
+  change.broken = bonds.overstretched(u, classes, ratio, strains);
+  change.softened = bonds.softened(u, classes, may_recover, at_points.eigenstrain);
   const auto is_counted_here = [&](bonds::BondId b) {
     return bonds.bond(b).first_element < model.mesh.n_owned_elements;
   };

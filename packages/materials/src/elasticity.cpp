@@ -13,6 +13,10 @@ double dilatational_ratio(ElasticModel model, double poissons_ratio) {
   return model == ElasticModel::plane_stress ? 3. * beyond / (1. - nu) : 4. * beyond / (1. - 2. * nu);
 }
 
+double expansion_factor(ElasticModel model, double poissons_ratio) {
+  return model == ElasticModel::plane_strain ? 1. + poissons_ratio : 1.;
+}
+
 template <int dim>
 base::Stiffness<dim> elasticity_tensor(ElasticModel model, double youngs_modulus, double poissons_ratio) {
   PERIMORPH_ASSERT((model == ElasticModel::three_dimensional) == (dim == 3), "dimension {}", dim);

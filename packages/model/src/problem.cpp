@@ -44,17 +44,28 @@ materials::BondMaterials bond_materials(const mesh::Mesh<dim>& mesh, const Probl
 }
 
 template <int dim>
+discretization::Eigenstrain<dim> eigenstrain(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                                             const Problem<dim>& problem) {
+  if (problem.temperature_changes.empty()) return {};
+  std::vector<double> expansion;
+  for (const int m : materials_of_elements(mesh, problem)) expansion.push_back(problem.materials[m].thermal_expansion);
+  return {mesh, points, problem.temperature_changes, expansion};
+}
+
+template <int dim>
 mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
                                 const std::vector<double>& costs) {
   const bool is_uncracked_and_classical = !problem.has_zones() && problem.pre_cracks.empty();
   return mesh::distribute(comm, whole, is_uncracked_and_classical ? 0. : problem.horizon(), costs);
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                         \
-  template struct Problem<dim>;                                                                            \
-  template std::vector<int> materials_of_elements(const mesh::Mesh<dim>&, const Problem<dim>&);            \
-  template materials::BondMaterials bond_materials(const mesh::Mesh<dim>&, const Problem<dim>&);           \
-  template mesh::Mesh<dim> distribute_mesh(const base::Comm&, const mesh::Mesh<dim>&, const Problem<dim>&, \
+#define PERIMORPH_INSTANTIATE(dim)                                                                                    \
+  template struct Problem<dim>;                                                                                       \
+  template std::vector<int> materials_of_elements(const mesh::Mesh<dim>&, const Problem<dim>&);                       \
+  template materials::BondMaterials bond_materials(const mesh::Mesh<dim>&, const Problem<dim>&);                      \
+  template discretization::Eigenstrain<dim> eigenstrain(const mesh::Mesh<dim>&, const elements::MaterialPoints<dim>&, \
+                                                        const Problem<dim>&);                                         \
+  template mesh::Mesh<dim> distribute_mesh(const base::Comm&, const mesh::Mesh<dim>&, const Problem<dim>&,            \
                                            const std::vector<double>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "lanes.hpp"
+#include "bond_sums.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/materials/decay.hpp"
 
@@ -14,13 +14,6 @@ namespace perimorph::operators {
 namespace {
 
 constexpr unsigned bit(int i, int j) { return 1u << (i * n_lanes + j); }
-RowPair first_ends(const double* at_points) {
-  RowPair both;
-  both << Lanes::Constant(at_points[0]), Lanes::Constant(at_points[1]);
-  return both;
-}
-auto first_row(const RowPair& rows) { return rows.head<n_lanes>(); }
-auto second_row(const RowPair& rows) { return rows.tail<n_lanes>(); }
 int count_bits(unsigned mask) { return __builtin_popcount(mask); }
 
 /// c of a bond as far as softening has left it, [force / length^3].
@@ -36,13 +29,6 @@ double weight_of(const bonds::Bond<dim>& bond, double stiffness) {
   return stiffness * squared_length * squared_length;
 }
 
-template <int dim>
-RowPair squared(const std::array<RowPair, dim>& xi) {
-  RowPair sum = RowPair::Zero();
-  for (int c = 0; c < dim; ++c) sum += xi[c] * xi[c];
-  return sum;
-}
-
 /// c0 over the root of the product of both tau0.
 RowPair mean_decay(const RowPair& squared_lengths, const materials::Micromodulus& one,
                    const materials::Micromodulus& other) {
@@ -53,91 +39,11 @@ RowPair mean_decay(const RowPair& squared_lengths, const materials::Micromodulus
   return materials::harmonic_mean(of_one, of_other) / std::sqrt(one.tau0 * other.tau0);
 }
 
-/// Adds to the first packet's points what two rows of bonds have summed up.
-void add_rows(const RowPair& sum, double* at_points) {
-  at_points[0] += first_row(sum).sum();
-  at_points[1] += second_row(sum).sum();
-}
-/// The same to the second packet's.
-void add_columns(const RowPair& sum, double* at_points) {
-  Eigen::Map<Lanes>(at_points) += first_row(sum) + second_row(sum);
-}
-
-/// Forces of the bonds on both ends.
-template <int dim, bool dilates>
-class SumOfForces {
- public:
-  /// @param forces per packet: (dim, 4); @param stretches p, per packet: (4), if it dilates
-  SumOfForces(double* forces, const double* stretches) : forces_(forces), stretches_(stretches) {}
-
-  void start(std::size_t a) {
-    for (int rows = 0; rows < n_lanes / 2; ++rows) {
-      for (int c = 0; c < dim; ++c) on_a_[rows][c].setZero();
-      if constexpr (dilates) p_a_[rows] = first_ends(stretches_ + a * n_lanes + 2 * rows);
-    }
-  }
-  void start_block(std::size_t b) {
-    for (int c = 0; c < dim; ++c) on_b_[c].setZero();
-    if constexpr (dilates) p_b_ = twice(stretches_ + b * n_lanes);
-  }
-  void add(int rows, const std::array<RowPair, dim>& xi, RowPair elongation, const RowPair& stiffness) {
-    if constexpr (dilates) elongation += squared<dim>(xi) * (p_a_[rows] + p_b_);
-    const RowPair tension = elongation * stiffness;
-    for (int c = 0; c < dim; ++c) {
-      on_a_[rows][c] -= tension * xi[c];
-      on_b_[c] += tension * xi[c];
-    }
-  }
-  void end_block(std::size_t b) {
-    for (int c = 0; c < dim; ++c) add_columns(on_b_[c], forces_ + (b * dim + c) * n_lanes);
-  }
-  void end(std::size_t a) {
-    for (int rows = 0; rows < n_lanes / 2; ++rows) {
-      for (int c = 0; c < dim; ++c) add_rows(on_a_[rows][c], forces_ + (a * dim + c) * n_lanes + 2 * rows);
-    }
-  }
-
- private:
-  double* forces_;
-  const double* stretches_;
-  std::array<std::array<RowPair, dim>, n_lanes / 2> on_a_;
-  std::array<RowPair, dim> on_b_;
-  std::array<RowPair, n_lanes / 2> p_a_;
-  RowPair p_b_;
-};
-
-/// S at both ends.
-template <int dim>
-class SumOfElongations {
- public:
-  /// @param sums per packet: (4), [force length]
-  explicit SumOfElongations(double* sums) : sums_(sums) {}
-
-  void start(std::size_t) { at_a_.fill(RowPair::Zero()); }
-  void start_block(std::size_t) { at_b_.setZero(); }
-  void add(int rows, const std::array<RowPair, dim>& xi, const RowPair& elongation, const RowPair& stiffness) {
-    const RowPair weighted = squared<dim>(xi) * stiffness * elongation;
-    at_a_[rows] += weighted;
-    at_b_ += weighted;
-  }
-  void end_block(std::size_t b) { add_columns(at_b_, sums_ + b * n_lanes); }
-  void end(std::size_t a) {
-    for (int rows = 0; rows < n_lanes / 2; ++rows) add_rows(at_a_[rows], sums_ + a * n_lanes + 2 * rows);
-  }
-
- private:
-  double* sums_;
-  std::array<RowPair, n_lanes / 2> at_a_;
-  RowPair at_b_;
-};
-
 }  // namespace
 
 template <int dim>
 BondForces<dim>::BondForces(const CoupledModel<dim>& model)
-    : LinearTerm<dim>(static_cast<std::size_t>(model.dofs.n_owned_nodes()) * dim),
-      model_(model),
-      first_packet_(model.mesh.n_elements(), -1) {
+    : ElasticTerm<dim>(model), first_packet_(model.mesh.n_elements(), -1) {
   make_packets();
   make_blocks();
   if (model.has_dilatation()) make_dilatation();
@@ -269,12 +175,53 @@ void BondForces<dim>::add_tangent_product(base::ConstField x, base::Field force)
   gather(x.getRawPtr());
   std::fill(forces_.begin(), forces_.end(), 0.);
   if (dilatation_) {
-    dilate();
+    dilate<false>();
     pass_over(SumOfForces<dim, true>(forces_.data(), stretches_.data()));
   } else {
     pass_over(SumOfForces<dim, false>(forces_.data(), nullptr));
   }
   spread(force.getRawPtr());
+}
+
+template <int dim>
+void BondForces<dim>::add_force_at(base::ConstField u, const std::vector<double>& eigenstrain,
+                                   base::Field force) const {
+  gather(u.getRawPtr());
+  shrink(eigenstrain);
+  std::fill(forces_.begin(), forces_.end(), 0.);
+  pass_over(SumOfForces<dim, true>(forces_.data(), added_.data()));
+  spread(force.getRawPtr());
+}
+
+template <int dim>
+void BondForces<dim>::add_confinement(base::ConstField u, base::Field at_points) const {
+  if (model_.eigenstrain == nullptr) return;
+  gather(u.getRawPtr());
+  shrink(model_.eigenstrain->at_points());
+  std::vector<double> sums(added_.size(), 0.);
+  pass_over(SumOfTensions<dim, true>(sums.data(), added_.data()));
+  for (int e = 0; e < model_.mesh.n_owned_elements; ++e) {
+    if (first_packet_[e] < 0) continue;
+    for (int q = 0; q < model_.points.count(e); ++q) {
+      at_points[model_.points.first(e) + q] -= 0.5 * sums[lane_of(e, q)];
+    }
+  }
+}
+
+/// From an eigenstrain, and displacements, to what is added to the stretches.
+template <int dim>
+void BondForces<dim>::shrink(const std::vector<double>& eigenstrain) const {
+  shrinkage_.assign(packets_.size() * n_lanes, 0.);
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+    if (first_packet_[e] < 0) continue;
+    for (int q = 0; q < model_.points.count(e); ++q) {
+      shrinkage_[lane_of(e, q)] = -0.5 * eigenstrain[model_.points.first(e) + q];
+    }
+  }
+  added_ = shrinkage_;
+  if (!dilatation_) return;
+  dilate<true>();
+  for (std::size_t i = 0; i < added_.size(); ++i) added_[i] += stretches_[i];
 }
 
 template <int dim>
@@ -353,11 +300,12 @@ void BondForces<dim>::pass_over(Sum sum) const {
   model_.bonds.computes_stiffness() ? pass_over_blocks<true>(sum) : pass_over_blocks<false>(sum);
 }
 
-/// From displacements to p at the points.
+/// From displacements, and from what shrinks the bonds, to p at the points.
 template <int dim>
+template <bool shrinks>
 void BondForces<dim>::dilate() const {
   std::fill(stretches_.begin(), stretches_.end(), 0.);
-  pass_over(SumOfElongations<dim>(stretches_.data()));
+  pass_over(SumOfTensions<dim, shrinks>(stretches_.data(), shrinkage_.data()));
   dilatation_->to_stretch(stretches_);
 }
 
@@ -435,7 +383,7 @@ std::size_t BondForces<dim>::bytes() const {
   const auto size = [](const auto& vector) { return vector.size() * sizeof(vector[0]); };
   return size(packets_) + size(positions_) + size(alpha_) + size(weights_) + size(first_packet_) + size(first_block_) +
          size(first_bond_) + size(second_) + size(masks_) + size(stiffness_) + size(displacements_) + size(forces_) +
-         size(stretches_) + (dilatation_ ? dilatation_->bytes() : 0);
+         size(stretches_) + size(shrinkage_) + size(added_) + (dilatation_ ? dilatation_->bytes() : 0);
 }
 
 template class BondForces<2>;

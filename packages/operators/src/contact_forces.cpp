@@ -55,12 +55,19 @@ void ContactForces<dim>::set_stiffness(Contact& contact) const {
   contact.along_faces = friction_ == 0. ? 0. : lost * contact.g.squaredNorm();
 }
 
-/// eta
+/// How eta changes.
 template <int dim>
-Point<dim> ContactForces<dim>::opening(const Contact& contact, base::ConstField u) const {
+Point<dim> ContactForces<dim>::opening(const Contact& contact, base::ConstField x) const {
   const auto& bond = contact.bond;
-  return displacement_at(model_, u, bond.second_element, bond.second_end) -
-         displacement_at(model_, u, bond.first_element, bond.first_end);
+  return displacement_at(model_, x, bond.second_element, bond.second_end) -
+         displacement_at(model_, x, bond.first_element, bond.first_end);
+}
+
+/// eta, without what the eigenstrain makes of xi.
+template <int dim>
+Point<dim> ContactForces<dim>::relative_displacement(const Contact& contact, base::ConstField u) const {
+  if (model_.eigenstrain == nullptr) return opening(contact, u);
+  return opening(contact, u) - mean_of_ends(model_.eigenstrain->at_points(), contact.bond) * contact.bond.xi;
 }
 
 template <int dim>
@@ -107,7 +114,7 @@ template <int dim>
 void ContactForces<dim>::add_force(base::ConstField u, base::Field force) const {
   PERIMORPH_ASSERT(u.size() == force.size(), "{} displacements, {} forces", u.size(), force.size());
   for (const auto& contact : contacts_) {
-    const auto now = response(contact, opening(contact, u));
+    const auto now = response(contact, relative_displacement(contact, u));
     if (now.is_closed) hold(contact, now.normal + now.friction, force);
   }
 }
@@ -117,7 +124,7 @@ void ContactForces<dim>::prepare_tangent(base::ConstField u) {
   stiffened_.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     auto& contact = contacts_[i];
-    const Block wanted = tangent(contact, response(contact, opening(contact, u)));
+    const Block wanted = tangent(contact, response(contact, relative_displacement(contact, u)));
     if (wanted == contact.in_tangent) continue;
     stiffened_.push_back({i, wanted - contact.in_tangent});
     contact.in_tangent = wanted;
@@ -129,6 +136,24 @@ void ContactForces<dim>::add_tangent_product(base::ConstField x, base::Field for
   PERIMORPH_ASSERT(x.size() == force.size(), "{} displacements, {} forces", x.size(), force.size());
   for (const auto& contact : contacts_) {
     if (!contact.in_tangent.isZero(0.)) hold(contact, contact.in_tangent * opening(contact, x), force);
+  }
+}
+
+template <int dim>
+void ContactForces<dim>::add_load_derivative(base::Field force) const {
+  if (model_.eigenstrain == nullptr) return;
+  const auto rates = model_.eigenstrain->rates(0.);
+  for (const auto& contact : contacts_) {
+    hold(contact, contact.in_tangent * (-mean_of_ends(rates, contact.bond) * contact.bond.xi), force);
+  }
+}
+
+template <int dim>
+void ContactForces<dim>::add_confinement(base::ConstField u, base::Field at_points) const {
+  for (const auto& spring : closed(u)) {
+    const double of_each_end = -0.5 * spring.pull.dot(spring.bond.xi);
+    at_points[spring.bond.first_point] += of_each_end;
+    at_points[spring.bond.second_point] += of_each_end;
   }
 }
 
@@ -149,7 +174,7 @@ template <int dim>
 std::vector<ContactSpring<dim>> ContactForces<dim>::closed(base::ConstField u) const {
   std::vector<ContactSpring<dim>> springs;
   for (const auto& contact : contacts_) {
-    const Point eta = opening(contact, u);
+    const Point eta = relative_displacement(contact, u);
     const auto now = response(contact, eta);
     if (!now.is_closed) continue;
     const double slid = now.friction.isZero(0.) ? 0.
@@ -175,7 +200,7 @@ bonds::Slips<dim> ContactForces<dim>::slips(base::ConstField u) const {
   bonds::Slips<dim> slips;
   if (friction_ == 0.) return slips;
   for (const auto& contact : contacts_) {
-    const auto now = response(contact, opening(contact, u));
+    const auto now = response(contact, relative_displacement(contact, u));
     Point distance = contact.slip;
     if (!now.is_closed) distance = now.sliding;
     if (now.slides) distance = now.sliding - now.friction / contact.along_faces;

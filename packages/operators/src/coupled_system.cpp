@@ -19,7 +19,7 @@ using base::Point;
 template <int dim>
 CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
                                   const discretization::Dirichlet<dim>& dirichlet,
-                                  const discretization::Loads<dim>& loads, MorphedStiffness<dim> elasticity,
+                                  const discretization::Loads<dim>& loads, ElasticResponse<dim> response,
                                   SystemOptions options, base::Profile& profile)
     : comm_(comm),
       topology_(topology),
@@ -27,7 +27,8 @@ CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::
       load_data_(loads),
       options_(options),
       profile_(profile),
-      elasticity_(std::move(elasticity)) {
+      elasticity_(std::move(response.elasticity)),
+      eigenstrain_(std::move(response.eigenstrain)) {
   PERIMORPH_ASSERT(options.preconditioner_matrix == PreconditionerMatrix::coupled || options.short_range_cut_off > 0.,
                    "short-range bonds up to {}", options.short_range_cut_off);
   PERIMORPH_ASSERT(!elasticity_.has_dilatation() || options.operator_form != OperatorForm::crs,
@@ -36,7 +37,13 @@ CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::
 
 template <int dim>
 CoupledModel<dim> CoupledSystem<dim>::model() const {
-  return {topology_.mesh(), topology_.points(), topology_.bonds(), topology_.alpha(), elasticity_, topology_.dofs()};
+  return {topology_.mesh(),
+          topology_.points(),
+          topology_.bonds(),
+          topology_.alpha(),
+          elasticity_,
+          topology_.dofs(),
+          eigenstrain_.exists() ? &eigenstrain_ : nullptr};
 }
 
 template <int dim>
@@ -109,6 +116,10 @@ void CoupledSystem<dim>::apply_load(double load_factor) {
   for (const auto& terms : {terms_, load_terms_}) {
     for (const auto& term : terms) term->apply_load(load_factor);
   }
+  if (!eigenstrain_.exists()) return;
+  eigenstrain_.apply_load(load_factor);
+  const std::vector<double> still(space_->n_local(), 0.);
+  held_expansion_ = sum_of_forces(terms_, base::field(still));
 }
 
 template <int dim>
@@ -141,7 +152,7 @@ void CoupledSystem<dim>::follow_slips() {
   if (!contact_.is_null()) contact_->follow_slips();
 }
 
-/// 1/2 F . u but for what faces have slid.
+/// 1/2 F . u, and the same of the eigenstrain, but for what faces have slid.
 template <int dim>
 double CoupledSystem<dim>::elastic_energy(base::ConstField u) const {
   double elastic = 0.;
@@ -151,7 +162,36 @@ double CoupledSystem<dim>::elastic_energy(base::ConstField u) const {
   for (const auto& contact : at_points_.contacts) {
     if (contact.bond.first_element < topology_.mesh().n_owned_elements) elastic -= contact.slid_energy;
   }
+  const auto confinement = this->confinement(u);
+  for (std::size_t p = 0; p < confinement.size(); ++p) elastic += 0.5 * confinement[p] * at_points_.eigenstrain[p];
   return elastic;
+}
+
+template <int dim>
+std::vector<double> CoupledSystem<dim>::confinement(base::ConstField u) const {
+  if (!eigenstrain_.exists()) return {};
+  std::vector<double> at_points(topology_.points().size(), 0.);
+  for (const auto& term : terms_) term->add_confinement(u, base::field(at_points));
+  at_points.resize(topology_.points().first(topology_.mesh().n_owned_elements));
+  return at_points;
+}
+
+template <int dim>
+std::vector<double> CoupledSystem<dim>::moved(base::ConstField u, const std::vector<double>& eigenstrain) const {
+  const std::ptrdiff_t n_owned = topology_.dofs().n_owned_nodes() * dim;
+  std::vector<double> moved(u.begin(), u.begin() + n_owned);
+  if (!eigenstrain_.exists()) return moved;
+  const int n_points = topology_.points().first(topology_.mesh().n_owned_elements);
+  moved.insert(moved.end(), eigenstrain.begin(), eigenstrain.begin() + n_points);
+  return moved;
+}
+
+template <int dim>
+std::vector<double> CoupledSystem<dim>::exerted(base::ConstField u) const {
+  auto exerted = internal_;
+  const auto confinement = this->confinement(u);
+  exerted.insert(exerted.end(), confinement.begin(), confinement.end());
+  return exerted;
 }
 
 template <int dim>
@@ -160,7 +200,8 @@ void CoupledSystem<dim>::evaluate(base::ConstField u) {
                    "{} displacements for {} degrees of freedom", u.size(), space_->n_local());
   const auto timer = profile_.measure(Phase::residual);
   internal_ = sum_of_forces(terms_, u);
-  at_points_ = {displacements_at_points(model(), u), bond_forces_->dilatational_stretch(), {}};
+  at_points_ = {
+      displacements_at_points(model(), u), bond_forces_->dilatational_stretch(), {}, eigenstrain_.at_points()};
   if (!contact_.is_null()) at_points_.contacts = contact_->closed(u);
   loads_ = sum_of_forces(load_terms_, u);
   for (double& load : loads_) load = -load;
@@ -170,7 +211,7 @@ void CoupledSystem<dim>::evaluate(base::ConstField u) {
 template <int dim>
 std::vector<double> CoupledSystem<dim>::dilatation() const {
   if (!topology_.bonds().materials().sees_compression()) return {};
-  return dilatation_at_points(model(), at_points_.displacement, topology_.element_exchange());
+  return dilatation_at_points(model(), at_points_, topology_.element_exchange());
 }
 
 template <int dim>
@@ -188,6 +229,7 @@ NonlinearSystem::Norms CoupledSystem<dim>::residual(Vector& residual) const {
     const double all = difference(dof), free = unbalanced[dof];
     squares[0] += free * free;
     squares[1] += loads_[dof] * loads_[dof] + (all == free ? 0. : all * all - free * free);  // the constraints take it
+    if (!held_expansion_.empty()) squares[1] += held_expansion_[dof] * held_expansion_[dof];
   }
   base::sum(comm_, squares);
   return {std::sqrt(squares[0]), std::sqrt(std::max(0., squares[1]))};

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "at_points.hpp"
+#include "local_part.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/elements/strain.hpp"
 
@@ -12,23 +13,6 @@ namespace perimorph::operators {
 using base::Point;
 
 namespace {
-
-/// Calls visit(q, strain, stress, w) for each point of an element: those of its continuous part, E(x) eps.
-template <int dim, class Visit>
-void visit_local_part(const CoupledModel<dim>& model, int e, base::ConstField u, Visit visit) {
-  elements::with_corners<dim>(model.mesh.n_corners(e), [&](auto corners) {
-    constexpr int n = decltype(corners)::value;
-    Eigen::Matrix<double, dim * n, 1> d;
-    for (int k = 0; k < n; ++k) {
-      d.template segment<dim>(k * dim) = base::at_node<dim>(u, model.dofs.nodes_of(e)[k]);
-    }
-    for (int q = 0; q < model.points.count(e); ++q) {
-      const base::Voigt<dim> strain = elements::strain_matrix<dim, n>(model.points.gradients(e, q)) * d;
-      const base::Voigt<dim> stress = model.elasticity.at(e, q) * strain;
-      visit(q, strain, stress, model.points.weight(model.points.first(e) + q));
-    }
-  });
-}
 
 /// Calls visit(bond, energy, stress) for each intact bond of a pair of elements, with its share in each end's energy
 /// and stress times volume.
@@ -97,16 +81,17 @@ std::vector<Point<dim>> displacements_at_points(const CoupledModel<dim>& model, 
 }
 
 template <int dim>
-std::vector<double> dilatation_at_points(const CoupledModel<dim>& model, const std::vector<Point<dim>>& displacement,
+std::vector<double> dilatation_at_points(const CoupledModel<dim>& model, const PointFields<dim>& at_points,
                                          const discretization::HaloExchange& elements) {
   const auto n = static_cast<std::size_t>(model.points.size());
-  PERIMORPH_ASSERT(displacement.size() == n, "displacements at {} of {} points", displacement.size(), n);
+  PERIMORPH_ASSERT(at_points.displacement.size() == n, "displacements at {} of {} points",
+                   at_points.displacement.size(), n);
   std::vector<double> dilatation(n, 0.), weighted_volume(n, 0.);
   model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
     if (bond.is_broken) return;
     const double squared_length = bond.xi.squaredNorm();
     const double weight = model.bonds.stiffness(bond) * model.bonds.share_left(bond) * squared_length;
-    const double elongation = bond.xi.dot(displacement[bond.second_point] - displacement[bond.first_point]);
+    const double elongation = bond.xi.dot(at_points.relative_displacement(bond));
     for (const int point : {bond.first_point, bond.second_point}) {
       dilatation[point] += dim * weight * elongation;
       weighted_volume[point] += weight * squared_length;
@@ -186,10 +171,10 @@ template std::vector<base::Voigt<3>> stress_at_points<3>(const CoupledModel<3>&,
                                                          const PointFields<3>&);
 
 template std::vector<Point<2>> displacements_at_points<2>(const CoupledModel<2>&, base::ConstField);
-template std::vector<double> dilatation_at_points<2>(const CoupledModel<2>&, const std::vector<Point<2>>&,
+template std::vector<double> dilatation_at_points<2>(const CoupledModel<2>&, const PointFields<2>&,
                                                      const discretization::HaloExchange&);
 template std::vector<Point<3>> displacements_at_points<3>(const CoupledModel<3>&, base::ConstField);
-template std::vector<double> dilatation_at_points<3>(const CoupledModel<3>&, const std::vector<Point<3>>&,
+template std::vector<double> dilatation_at_points<3>(const CoupledModel<3>&, const PointFields<3>&,
                                                      const discretization::HaloExchange&);
 
 }  // namespace perimorph::operators

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lanes.hpp"
+#include "local_part.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/elements/strain.hpp"
 #include "perimorph/operators/stiffness_matrix.hpp"
@@ -51,11 +52,26 @@ void add_divergence(const double* gradients, const std::array<Lanes, base::n_voi
   }
 }
 
+/// force -= B^T stress at a point of an element. @param stress times volume
+template <int dim>
+void subtract_divergence(const CoupledModel<dim>& model, int e, int q, const base::Voigt<dim>& stress,
+                         base::Field force) {
+  const auto gradients = model.points.gradients(e, q);
+  for (int k = 0; k < model.mesh.n_corners(e); ++k) {
+    double* at_node = force.getRawPtr() + static_cast<std::ptrdiff_t>(model.dofs.nodes_of(e)[k]) * dim;
+    for (int c = 0; c < dim; ++c) at_node[c] -= gradients(c, k) * stress[c];
+    for (int v = dim; v < base::n_voigt<dim>; ++v) {
+      const auto [i, j] = elements::shear_axes<dim>(v);
+      at_node[i] -= gradients(j, k) * stress[v];
+      at_node[j] -= gradients(i, k) * stress[v];
+    }
+  }
+}
+
 }  // namespace
 
 template <int dim>
-LocalForces<dim>::LocalForces(const CoupledModel<dim>& model)
-    : LinearTerm<dim>(static_cast<std::size_t>(model.dofs.n_owned_nodes()) * dim), model_(model) {
+LocalForces<dim>::LocalForces(const CoupledModel<dim>& model) : ElasticTerm<dim>(model) {
   std::vector<std::size_t> n_elements;  // in each group
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     if (!model.bonds.is_active(e) || model.elasticity.is_zero(e)) continue;
@@ -145,6 +161,32 @@ void LocalForces<dim>::add(const Group& g, const double* u, double* force) const
         for (int c = 0; c < dim; ++c) force[nodes[k * n_lanes + lane] * dim + c] += forces[k][c][lane];
       }
     }
+  }
+}
+
+/// K_local u - Sum_q w B^T E(x) I times the eigenstrain.
+template <int dim>
+void LocalForces<dim>::add_force_at(base::ConstField u, const std::vector<double>& eigenstrain,
+                                    base::Field force) const {
+  add_tangent_product(u, force);
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+    if (!model_.bonds.is_active(e) || model_.elasticity.is_zero(e)) continue;
+    for (int q = 0; q < model_.points.count(e); ++q) {
+      const int point = model_.points.first(e) + q;
+      const base::Stiffness<dim> weighted = model_.points.weight(point) * model_.elasticity.at(e, q);
+      subtract_divergence(model_, e, q, eigenstrain[point] * weighted.template leftCols<dim>().rowwise().sum(), force);
+    }
+  }
+}
+
+/// - w I . E(x) (eps - eigenstrain I)
+template <int dim>
+void LocalForces<dim>::add_confinement(base::ConstField u, base::Field at_points) const {
+  for (int e = 0; e < model_.mesh.n_owned_elements; ++e) {
+    if (model_.elasticity.is_zero(e)) continue;
+    visit_local_part(model_, e, u, [&](int q, const base::Voigt<dim>&, const base::Voigt<dim>& stress, double w) {
+      at_points[model_.points.first(e) + q] -= w * stress.template head<dim>().sum();
+    });
   }
 }
 

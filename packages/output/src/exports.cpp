@@ -90,7 +90,7 @@ struct PointRecord {
 template <int dim>
 std::vector<BondRecord> own_bonds(const Body<dim>& body) {
   const auto model = body.model();
-  const auto& u = body.system().at_points().displacement;
+  const auto& [u, dilatational_stretch, contacts, eigenstrain] = body.system().at_points();
   std::vector<BondRecord> records;
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
     const auto [first, second] = model.bonds.pair(p);
@@ -99,8 +99,10 @@ std::vector<BondRecord> own_bonds(const Body<dim>& body) {
       const int i = model.bonds.first_end(b), j = model.bonds.second_end(b);
       const int x = model.points.first(first) + i, y = model.points.first(second) + j;
       const Point<dim> xi = model.points.position(y) - model.points.position(x);
+      const double free = eigenstrain.empty() ? 0. : 0.5 * (eigenstrain[x] + eigenstrain[y]);
       records.push_back({model.points.global_id(first, i), model.points.global_id(second, j),
-                         (xi + u[y] - u[x]).norm() / xi.norm() - 1., static_cast<signed char>(model.bonds.broken(b))});
+                         (xi + u[y] - u[x]).norm() / xi.norm() - 1. - free,
+                         static_cast<signed char>(model.bonds.broken(b))});
     }
   }
   return records;

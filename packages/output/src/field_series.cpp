@@ -41,7 +41,7 @@ double mean_over_points(const operators::CoupledModel<dim>& model, int element, 
 }
 
 template <int dim>
-std::vector<ElementVariable<dim>> element_variables() {
+std::vector<ElementVariable<dim>> element_variables(bool has_eigenstrain) {
   using V = const View<dim>&;
   std::vector<ElementVariable<dim>> variables = {
       {"alpha", [](V v, int e) { return mean_over_points(v.model, e, [&](int p) { return v.model.alpha(p); }); }},
@@ -53,14 +53,22 @@ std::vector<ElementVariable<dim>> element_variables() {
   for (int c = 0; c < base::n_voigt<dim>; ++c) {
     variables.push_back({stress_names<dim>()[c], [c](V v, int e) { return v.fields.stress[e][c]; }});
   }
+  if (has_eigenstrain) {
+    variables.push_back({"eigenstrain", [](V v, int e) {
+                           const auto& at_points = v.body.system().eigenstrain().at_points();
+                           return mean_over_points(v.model, e, [&](int p) { return at_points[p]; });
+                         }});
+  }
   return variables;
 }
 
 template <int dim>
-typename io::ExodusSeries<dim>::Names variable_names(std::vector<std::string> globals) {
-  typename io::ExodusSeries<dim>::Names names{std::move(globals), {}, {}};
+typename io::ExodusSeries<dim>::Names variable_names(const SeriesOptions& options) {
+  typename io::ExodusSeries<dim>::Names names{options.globals, {}, {}};
   for (int c = 0; c < dim; ++c) names.nodal.push_back(std::string("displacement_") + axis_names[c]);
-  for (const auto& variable : element_variables<dim>()) names.element.push_back(variable.name);
+  for (const auto& variable : element_variables<dim>(options.has_eigenstrain)) {
+    names.element.push_back(variable.name);
+  }
   return names;
 }
 
@@ -69,12 +77,16 @@ typename io::ExodusSeries<dim>::Names variable_names(std::vector<std::string> gl
 template <int dim>
 FieldSeries<dim>::FieldSeries(const Teuchos::RCP<const base::Comm>& comm, SeriesOptions options,
                               const io::SeriesExtent& earlier, std::vector<io::FileExtent> earlier_files)
-    : comm_(comm), is_spread_(options.is_spread), files_(std::move(earlier_files)), n_closed_files_(files_.size()) {
+    : comm_(comm),
+      is_spread_(options.is_spread),
+      has_eigenstrain_(options.has_eigenstrain),
+      files_(std::move(earlier_files)),
+      n_closed_files_(files_.size()) {
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0 && !is_spread_) return;
     std::optional<io::SpreadPart> part;
     if (is_spread_) part = io::SpreadPart{comm_->getRank(), comm_->getSize()};
-    series_ = std::make_unique<io::ExodusSeries<dim>>(options.file, options.title, variable_names<dim>(options.globals),
+    series_ = std::make_unique<io::ExodusSeries<dim>>(options.file, options.title, variable_names<dim>(options),
                                                       options.information, part);
     series_->resume(earlier);
     if (comm_->getRank() == 0) series_->remove_the_rest();
@@ -129,7 +141,7 @@ void FieldSeries<dim>::write(int increment, const Body<dim>& body, std::vector<d
   for (int c = 0; c < dim; ++c) step.nodal.push_back(on_nodes(body, c));
   const View<dim> view{body, body.model(),
                        operators::element_fields(body.model(), body.displacement(), body.system().at_points())};
-  for (const auto& variable : element_variables<dim>()) {
+  for (const auto& variable : element_variables<dim>(has_eigenstrain_)) {
     std::vector<double> own;
     for (int e = 0; e < body.mesh().n_owned_elements; ++e) own.push_back(variable.value(view, e));
     step.element.push_back(on_elements(own));

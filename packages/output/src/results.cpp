@@ -59,8 +59,12 @@ Results<dim>::Results(const Teuchos::RCP<const base::Comm>& comm, const cases::C
       reactions_(reactions_after<dim>(input, earlier)),
       columns_(history_columns(reactions_, input.loading.control == cases::Control::measure,
                                input.peridynamics.friction > 0.)),
-      unfinished_{unfinished_file(folder, input.name), input.title, names_of(columns_), lines_of(input.resolved),
-                  input.output.spread_files},
+      unfinished_{unfinished_file(folder, input.name),
+                  input.title,
+                  names_of(columns_),
+                  lines_of(input.resolved),
+                  input.output.spread_files,
+                  !input.boundary_conditions.temperatures.empty()},
       console_(std::move(console), profile, last_increment_, input.peridynamics.horizon,
                earlier ? earlier->seconds - earlier->seconds_before : 0.) {
   SeriesOptions series = unfinished_;

@@ -106,11 +106,34 @@ TEST_F(Breaking, OfStretchesByCompressionOnlyAShareCounts) {
   ASSERT_GT(expected.size(), 50u);
   ASSERT_LT(expected.size(), by_stretch.size() - 50u);
 
-  EXPECT_EQ(other.bonds.overstretched(deformed(gradient), classes, 1., dilatation), expected);
-  const auto found = other.bonds.overstretches(deformed(gradient), classes, 1., dilatation);
+  EXPECT_EQ(other.bonds.overstretched(deformed(gradient), classes, 1., {{}, dilatation}), expected);
+  const auto found = other.bonds.overstretches(deformed(gradient), classes, 1., {{}, dilatation});
   ASSERT_EQ(found.size(), ratios.size());
   for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], ratios[k], 1e-12);
   EXPECT_THROW(other.bonds.overstretched(deformed(gradient), classes), base::Bug);  // without the dilatation
+}
+
+TEST_F(Breaking, WhatCountsIsTheStretchBeyondTheMeanEigenstrainOfBothEnds) {
+  std::vector<double> eigenstrain;
+  for (int i = 0; i < body.points.size(); ++i) eigenstrain.push_back(0.005 * body.points.position(i)[0] / 3.);
+  const auto u = widened(critical_stretch + 0.004);
+  std::vector<std::size_t> expected;
+  std::vector<double> stretches;
+  body.for_each_bond([&](int p, std::size_t b) {
+    const auto [i, j] = body.ends(p, b);
+    const double beyond = critical_stretch + 0.004 - 0.5 * (eigenstrain[i] + eigenstrain[j]);
+    if (beyond < critical_stretch || body.bonds.pair(p).first == body.bonds.pair(p).second) return;
+    expected.push_back(b);
+    stretches.push_back(beyond / critical_stretch);
+  });
+  ASSERT_GT(expected.size(), 100u);
+  ASSERT_LT(expected.size(), n_between_elements() - 100u);
+
+  EXPECT_EQ(body.bonds.overstretched(u, classes, 1., {eigenstrain}), expected);
+  const auto found = body.bonds.overstretches(u, classes, 1., {eigenstrain});
+  ASSERT_EQ(found.size(), stretches.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], stretches[i], 1e-12);
+  EXPECT_THROW(body.bonds.overstretched(u, classes, 1., {{0.}}), base::Bug);
 }
 
 TEST_F(Breaking, ARotationAndACompressionBreakNothing) {

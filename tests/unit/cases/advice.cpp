@@ -53,6 +53,14 @@ TEST(Advice, ADensityWithoutWeightHasNoEffect) {
   EXPECT_THAT(advice(input, 1.), IsEmpty());
 }
 
+TEST(Advice, AThermalExpansionWithoutATemperatureHasNoEffect) {
+  Case input = good();
+  input.material.thermal_expansion = 1e-5;
+  EXPECT_THAT(advice(input, 1.), ElementsAre(StartsWith("/Boundary Conditions/Temperatures: has none")));
+  input.boundary_conditions.temperatures.emplace_back();
+  EXPECT_THAT(advice(input, 1.), IsEmpty());
+}
+
 TEST(Advice, ContactWithoutAZoneHasNoEffect) {
   Case input = good();
   input.peridynamics.crack_faces = discretization::CrackFaces::contact;

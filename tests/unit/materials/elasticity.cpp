@@ -25,6 +25,19 @@ TEST(ElasticityTensor, InThreeDimensionsUniaxialStressContractsByPoissonsRatio) 
             rounding);
 }
 
+/// No strain across the plane, and alpha dT = 1.
+TEST(ExpansionFactor, GivesInPlaneStrainTheStressOfThreeDimensions) {
+  base::Voigt<3> strain;
+  strain << 0.3 - 1., -0.2 - 1., -1., 0., 0., 0.5;
+  const base::Voigt<3> solid = elasticity_tensor<3>(ElasticModel::three_dimensional, e, nu) * strain;
+  const double free = expansion_factor(ElasticModel::plane_strain, nu);
+  const base::Voigt<2> plane =
+      elasticity_tensor<2>(ElasticModel::plane_strain, e, nu) * base::Voigt<2>(0.3 - free, -0.2 - free, 0.5);
+  EXPECT_LT((plane - base::Voigt<2>(solid[0], solid[1], solid[5])).norm(), rounding * solid.norm());
+  EXPECT_EQ(expansion_factor(ElasticModel::plane_stress, nu), 1.);
+  EXPECT_EQ(expansion_factor(ElasticModel::three_dimensional, nu), 1.);
+}
+
 TEST(ElasticityTensor, InPlaneStrainIsTheThreeDimensionalOneWithoutStrainAcross) {
   const auto solid = elasticity_tensor<3>(ElasticModel::three_dimensional, e, nu);
   const auto plane = elasticity_tensor<2>(ElasticModel::plane_strain, e, nu);

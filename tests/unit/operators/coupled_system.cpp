@@ -16,8 +16,10 @@ using discretization::CrackFaces;
 
 constexpr double sticky = 1e9;  // so much friction that nothing slides, where the tangent is exact
 
-/// Irregular elements with a zone and a pre-crack in it, pulled at a side and by a traction and a body force.
-class CoupledSystem : public testing::TestWithParam<std::tuple<operators::OperatorForm, double, CrackFaces, double>> {
+/// Irregular elements with a zone and a pre-crack in it, pulled at a side and by a traction and a body force; some of
+/// them heated, and every second element expands more.
+class CoupledSystem
+    : public testing::TestWithParam<std::tuple<operators::OperatorForm, double, CrackFaces, double, bool>> {
  protected:
   static constexpr double load_factor = 2.;
   CoupledBody body{[] {
@@ -32,12 +34,29 @@ class CoupledSystem : public testing::TestWithParam<std::tuple<operators::Operat
   }()};
   discretization::Loads<2> loads{{{"top", {Point2(0.3, 1.), Point2(0., 0.5)}}}, {Point2(0.1, -0.2), Point2::Zero()}};
   base::Profile profile;
-  operators::CoupledSystem<2> system{*body.comm,      body.topology, body.dirichlet, loads,
-                                     body.elasticity, options(),     profile};
+  operators::CoupledSystem<2> system{*body.comm, body.topology, body.dirichlet, loads, {body.elasticity, eigenstrain()},
+                                     options(),  profile};
   std::vector<double> u;
 
   static operators::SystemOptions options() {
     return {std::get<0>(GetParam()), operators::PreconditionerMatrix::short_range, 1.2, std::get<3>(GetParam())};
+  }
+
+  discretization::Eigenstrain<2> eigenstrain() const {
+    if (!std::get<4>(GetParam())) return {};
+    std::vector<double> expansion;
+    for (const auto id : body.mesh.element_ids) expansion.push_back(1e-3 * (1. + id % 2));
+    const discretization::Profile<2> slanting{Point2(0.6, 0.8), discretization::PiecewiseLinear({{1., 1.}, {6., -2.}})};
+    return {body.mesh, body.points, {{{0.02, 0.3}, {"body"}, slanting}}, expansion};
+  }
+
+  /// Of the springs and elements, one by one, over all ranks.
+  double stored_energy() const {
+    double sum = 0.;
+    for (const double energy : operators::element_fields(system.model(), base::field(u), system.at_points()).energy) {
+      sum += energy;
+    }
+    return base::sum(*body.comm, sum);
   }
 
   void SetUp() override {
@@ -81,6 +100,7 @@ TEST_P(CoupledSystem, TangentIsTheDerivativeOfTheResidual) {
 
 TEST_P(CoupledSystem, LoadDerivativeIsThatOfTheResidual) {
   Vector derivative(system.unknowns());
+  system.prepare_tangent(base::field(u));
   system.load_derivative(derivative);
   const Vector before = residual();
 
@@ -97,26 +117,56 @@ TEST_P(CoupledSystem, LoadDerivativeIsThatOfTheResidual) {
 }
 
 TEST_P(CoupledSystem, EnergiesOfTheTermsAddUpToThatOfTheInternalForce) {
-  double of_terms = 0., of_force = 0.;
+  double of_terms = 0.;
   for (const auto& term : system.terms()) of_terms += term->energy(base::field(u));
-  for (std::size_t dof = 0; dof < system.space().n_owned(); ++dof)
-    of_force += 0.5 * u[dof] * system.internal_force()[dof];
   of_terms = base::sum(*body.comm, of_terms);
-  of_force = base::sum(*body.comm, of_force);
+  const double of_force = base::sum(*body.comm, system.elastic_energy(base::field(u)));
   EXPECT_GT(of_terms, 0.);
   EXPECT_NEAR(of_terms, of_force, 1e-12 * of_terms);
 }
 
 TEST_P(CoupledSystem, EnergiesOfElementsAddUpToThatOfTheInternalForce) {
-  const auto fields = operators::element_fields(system.model(), base::field(u), system.at_points());
-  std::vector<double> sums = {0., 0.};
-  for (const double energy : fields.energy) sums[0] += energy;
-  for (std::size_t dof = 0; dof < system.space().n_owned(); ++dof) {
-    sums[1] += 0.5 * u[dof] * system.internal_force()[dof];
+  const double stored = stored_energy();
+  EXPECT_GT(stored, 0.);
+  // Bonds are in single precision.
+  EXPECT_NEAR(stored, base::sum(*body.comm, system.elastic_energy(base::field(u))), 1e-6 * stored);
+}
+
+TEST_P(CoupledSystem, ForceIsTheDerivativeOfTheEnergy) {
+  const double before = stored_energy();
+  const auto force = system.internal_force(), u_before = u;
+  for (int dof = 0; dof < body.dofs->n_nodes() * 2; ++dof) {
+    u[dof] += 1e-7 * std::cos(body.dofs->global_node(dof / 2) + dof % 2);
   }
-  base::sum(*body.comm, sums);
-  EXPECT_GT(sums[0], 0.);
-  EXPECT_NEAR(sums[0], sums[1], 1e-6 * sums[0]);  // bonds in single precision
+  system.evaluate(base::field(u));
+
+  double work = 0.;  // energy is of second degree
+  for (std::size_t dof = 0; dof < system.space().n_owned(); ++dof) {
+    work += 0.5 * (force[dof] + system.internal_force()[dof]) * (u[dof] - u_before[dof]);
+  }
+  work = base::sum(*body.comm, work);
+  EXPECT_NE(work, 0.);
+  EXPECT_NEAR(stored_energy() - before, work, 1e-5 * std::abs(work));  // bonds in single precision
+}
+
+TEST_P(CoupledSystem, ConfinementIsTheDerivativeOfTheEnergyWithTheEigenstrain) {
+  if (!system.eigenstrain().exists()) {
+    EXPECT_TRUE(system.confinement(base::field(u)).empty());
+    return;
+  }
+  const double before = stored_energy();
+  const auto confinement = system.confinement(base::field(u)), strain = system.eigenstrain().at_points();
+  system.apply_load(load_factor + 1e-4);
+  system.evaluate(base::field(u));
+
+  double work = 0.;
+  const auto after = system.confinement(base::field(u));
+  for (std::size_t p = 0; p < after.size(); ++p) {
+    work += 0.5 * (confinement[p] + after[p]) * (system.eigenstrain().at_points()[p] - strain[p]);
+  }
+  work = base::sum(*body.comm, work);
+  EXPECT_NE(work, 0.);
+  EXPECT_NEAR(stored_energy() - before, work, 1e-5 * std::abs(work));
 }
 
 TEST_P(CoupledSystem, ForcesAfterABreakAreThoseOfAFreshEvaluation) {
@@ -141,12 +191,16 @@ TEST_P(CoupledSystem, ForcesAfterABreakAreThoseOfAFreshEvaluation) {
 
 using operators::OperatorForm;
 INSTANTIATE_TEST_SUITE_P(Forms, CoupledSystem,
-                         testing::Values(std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::free, 0.),
-                                         std::tuple(OperatorForm::matrix_free, 1. / 3., CrackFaces::free, 0.),
-                                         std::tuple(OperatorForm::matrix_free, 0.2, CrackFaces::free, 0.),
-                                         std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::contact, 0.),
-                                         std::tuple(OperatorForm::matrix_free, 0.2, CrackFaces::contact, 0.),
-                                         std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::contact, sticky)));
+                         testing::Values(std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::free, 0., false),
+                                         std::tuple(OperatorForm::matrix_free, 1. / 3., CrackFaces::free, 0., false),
+                                         std::tuple(OperatorForm::matrix_free, 0.2, CrackFaces::free, 0., false),
+                                         std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::contact, 0., false),
+                                         std::tuple(OperatorForm::matrix_free, 0.2, CrackFaces::contact, 0., false),
+                                         std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::contact, sticky, false),
+                                         std::tuple(OperatorForm::matrix_free, 1. / 3., CrackFaces::free, 0., true),
+                                         std::tuple(OperatorForm::matrix_free, 0.2, CrackFaces::free, 0., true),
+                                         std::tuple(OperatorForm::matrix_free, 0.2, CrackFaces::contact, 0., true),
+                                         std::tuple(OperatorForm::crs, 1. / 3., CrackFaces::contact, sticky, true)));
 
 }  // namespace
 }  // namespace perimorph::tests

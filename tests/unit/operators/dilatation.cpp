@@ -196,7 +196,7 @@ TEST(DilatationAtPoints, IsTheTraceOfAUniformIsotropicStrain) {
   std::vector<Point2> u;
   for (int i = 0; i < body.points.size(); ++i) u.push_back(0.01 * body.points.position(i));
 
-  const auto dilatation = operators::dilatation_at_points(body.model(), u, body.topology.element_exchange());
+  const auto dilatation = operators::dilatation_at_points(body.model(), {u}, body.topology.element_exchange());
 
   int n_bonded = 0;
   for (int e = 0; e < body.mesh.n_elements(); ++e) {

@@ -23,6 +23,12 @@ struct ElementPair {
 /// Where the stiffness of a bond comes from: memory, or its points.
 enum class StiffnessStorage { stored, on_the_fly };
 
+/// What bonds look at beside displacements, at the points, (n_points) each, [-].
+struct PointStrains {
+  std::vector<double> eigenstrain = {};  ///< empty: none
+  std::vector<double> dilatation = {};   ///< without that of the eigenstrain; empty where no law sees compression
+};
+
 /// All bonds that touch this rank's active elements and of which an end has alpha > 0. They are kept by pairs of
 /// elements: bonds of pair p are first_bond(p) ... first_bond(p+1)-1. The broken set lives here.
 template <int dim>
@@ -127,26 +133,27 @@ class BondFamilies {
   /// @param alpha at the points that the bonds join
   Extremes neighbourhood_extremes(const morphing::MorphingField<dim>& alpha) const;
 
-  /// The unbroken bonds whose stretch, as far as it counts, reaches their critical one [WHL19, eq. 6, 7], between two
-  /// different elements that both may break, ascending. Local: every rank that holds a bond decides alike.
+  /// The unbroken bonds whose stretch, as far as it counts and is beyond the mean eigenstrain of both ends, reaches
+  /// their critical one [WHL19, eq. 6, 7], between two different elements that both may break, ascending. Local: every
+  /// rank that holds a bond decides alike.
   /// @param displacements at the points, (n_points), [length]; only those of elements with bonds are read
   /// @param classes by local element, (n_elements): those of PD may break
   /// @param ratio of the critical stretches from which bonds count, >= 0, [-]
-  /// @param dilatation at the points, (n_points), [-]; not read if no law sees compression
   std::vector<BondId> overstretched(const std::vector<base::Point<dim>>& displacements,
                                     const std::vector<morphing::ElementClass>& classes, double ratio = 1.,
-                                    const std::vector<double>& dilatation = {}) const;
+                                    const PointStrains& strains = {}) const;
 
   /// What counts of stretches over the limits of the laws, of those bonds that reach a ratio of them, (n), [-]; those
   /// of which this rank owns the first element, so that each comes from one rank. Arguments as there. Local.
   std::vector<double> overstretches(const std::vector<base::Point<dim>>& displacements,
                                     const std::vector<morphing::ElementClass>& classes, double ratio = 1.,
-                                    const std::vector<double>& dilatation = {}) const;
+                                    const PointStrains& strains = {}) const;
 
   /// The bonds whose softening differs from what it was, without breaking. Arguments as there. Local.
   /// @param may_recover whether they may take back what is not accepted
   std::vector<SoftenedBond> softened(const std::vector<base::Point<dim>>& displacements,
-                                     const std::vector<morphing::ElementClass>& classes, bool may_recover) const;
+                                     const std::vector<morphing::ElementClass>& classes, bool may_recover,
+                                     const std::vector<double>& eigenstrain = {}) const;
 
   /// Marks bonds as broken or softened: unbroken ones, between two different elements. Local.
   void take(const BondChange& change);
@@ -191,10 +198,15 @@ class BondFamilies {
     return ends_[b];
   }
   double stiffness_on_the_fly(const Bond<dim>& bond) const;
+  /// What is known at points, such as where they go.
+  struct AtPoints {
+    const std::vector<base::Point<dim>>& displacements;
+    const std::vector<double>& eigenstrain;
+  };
   template <class Threshold, class Visit>
-  void for_each_stretched(const std::vector<base::Point<dim>>& displacements,
-                          const std::vector<morphing::ElementClass>& classes, Threshold threshold, Visit visit) const;
-  double counted_stretch(const Bond<dim>& bond, double squared_ratio, const materials::BondLaw& law,
+  void for_each_stretched(const AtPoints& at_points, const std::vector<morphing::ElementClass>& classes,
+                          Threshold threshold, Visit visit) const;
+  double counted_stretch(const Bond<dim>& bond, double stretch, const materials::BondLaw& law,
                          const std::vector<double>& dilatation) const;
   void check_dilatation(const std::vector<double>& dilatation) const;
   void lose(const Bond<dim>& bond, double share);

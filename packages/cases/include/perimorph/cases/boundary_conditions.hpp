@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "perimorph/cases/temperature.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
 #include "perimorph/input/section.hpp"
 #include "perimorph/input/values.hpp"
@@ -27,6 +28,7 @@ struct BoundaryConditions {
   std::vector<discretization::RigidGroup> rigid_groups;
   std::vector<Traction> tractions;
   std::vector<Pressure> pressures;
+  std::vector<Temperature> temperatures;
   std::vector<double> body_force_rate, body_force_constant;    ///< (dim), [force / volume]
   std::vector<double> self_weight_rate, self_weight_constant;  ///< (dim), [length / time^2]
 

@@ -28,6 +28,7 @@ struct Solid : Fracture {
   double youngs_modulus = 0.;                   ///< [stress]
   double poissons_ratio = 0.;                   ///< [-]
   double density = 0.;                          ///< [mass / volume]
+  double thermal_expansion = 0.;                ///< [1 / temperature]
   std::optional<double> characteristic_length;  ///< [length]; none: that of all
   std::optional<double> compressive_strength;   ///< [stress]; none: that of bonds which break by their stretch alone
 };

@@ -7,24 +7,27 @@
 
 namespace perimorph::discretization {
 
-/// A number over the increments, [-]: linear between given ones, and constant before the first and after the last.
-class Amplitude {
+/// A number that is linear between given places, and constant before the first and after the last.
+class PiecewiseLinear {
  public:
   struct Knot {
-    double increment, value;
-    bool operator==(const Knot& other) const { return increment == other.increment && value == other.value; }
+    double place, value;
+    bool operator==(const Knot& other) const { return place == other.place && value == other.value; }
   };
 
-  /// @param knots at least one, by ascending increment
-  explicit Amplitude(std::vector<Knot> knots);
+  /// @param knots at least one, by ascending place
+  explicit PiecewiseLinear(std::vector<Knot> knots);
 
-  double at(double increment) const;
+  double at(double place) const;
 
-  bool operator==(const Amplitude& other) const { return knots_ == other.knots_; }
+  bool operator==(const PiecewiseLinear& other) const { return knots_ == other.knots_; }
 
  private:
   std::vector<Knot> knots_;
 };
+
+/// A number over the increments, [-].
+using Amplitude = PiecewiseLinear;
 
 /// A value that grows with the load factor [-]: rate * load factor + constant, both in the value's unit. With an
 /// amplitude, rate * amplitude + constant, and the load factor is the increment.

@@ -16,6 +16,11 @@ double bond_based_poissons_ratio(ElasticModel model);
 /// @param poissons_ratio as for elasticity_tensor()
 double dilatational_ratio(ElasticModel model, double poissons_ratio);
 
+/// How much more an unloaded body expands in the plane than it would if it could expand across it too, [-]: 1 + nu in
+/// plane strain, where the stress across the plane that this takes, -E alpha dT, pushes by Poisson's effect; 1
+/// otherwise. With it stress = E0 (strain - factor alpha dT I) in the plane.
+double expansion_factor(ElasticModel model, double poissons_ratio);
+
 /// Isotropic linear elasticity tensor E0 in Voigt notation with engineering shear, [stress].
 /// @param model plane stress or plane strain in 2D, three_dimensional in 3D
 /// @param youngs_modulus E > 0, [stress]

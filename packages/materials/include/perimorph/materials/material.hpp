@@ -32,8 +32,9 @@ struct Material {
   Toughness toughness = {};
   double density = 0.;                              ///< [mass / volume]
   double youngs_modulus = 0., poissons_ratio = 0.;  ///< [stress], [-]
-  std::optional<double> compressive_strength =
-      {};  ///< none: that of bonds which break by their stretch alone, [stress]
+  /// None: that of bonds which break by their stretch alone, [stress].
+  std::optional<double> compressive_strength = {};
+  double thermal_expansion = 0.;  ///< alpha_T in the directions that are computed (expansion_factor), [1 / temperature]
 };
 
 /// A material that never breaks. Arguments as for elasticity_tensor() and calibrate().

@@ -8,6 +8,7 @@
 
 #include "perimorph/base/parallel.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
+#include "perimorph/discretization/eigenstrain.hpp"
 #include "perimorph/discretization/measure.hpp"
 #include "perimorph/discretization/topology.hpp"
 #include "perimorph/materials/bond_materials.hpp"
@@ -55,6 +56,7 @@ struct Problem {
   const discretization::Amplitude* common_amplitude = nullptr;  ///< of all loads that are proportional; null: none
   std::optional<MeasureControl<dim>> control = {};              ///< none: the load factor is the increment's number
   std::vector<discretization::RigidGroup> rigid_groups = {};    ///< that displacements may move as a whole
+  std::vector<discretization::TemperatureChange<dim>> temperature_changes = {};
   double thickness = 1.;  ///< of a body in two dimensions, which forces and energies are multiplied by, [length]
 
   /// What an increment prescribes, or a part of one: its load factor [-], or with control what is measured, [length].
@@ -78,6 +80,11 @@ std::vector<int> materials_of_elements(const mesh::Mesh<dim>& mesh, const Proble
 /// The problem's materials as the bonds of a mesh see them. Local.
 template <int dim>
 materials::BondMaterials bond_materials(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem);
+
+/// What material points expand by. Local.
+template <int dim>
+discretization::Eigenstrain<dim> eigenstrain(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
+                                             const Problem<dim>& problem);
 
 /// Each rank's part of the mesh, with a halo as the problem needs it. Collective.
 /// @param whole the mesh, on rank 0

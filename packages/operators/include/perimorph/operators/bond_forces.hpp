@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "perimorph/operators/coupled_model.hpp"
 #include "perimorph/operators/dilatation.hpp"
-#include "perimorph/operators/force_term.hpp"
+#include "perimorph/operators/elastic_term.hpp"
 
 namespace perimorph::operators {
 
@@ -15,9 +14,10 @@ namespace perimorph::operators {
 /// along every intact bond, spread the forces to the nodes. Four points of an element make a packet; the bonds between
 /// two packets are a mask of 16 bits and one single-precision number per bond, so that few bytes stream past per bond.
 /// If the bonds compute their stiffness on the fly, the mask is all: a tenth of the bytes for twice the arithmetic.
-/// With dilatation the bonds are passed over twice: for the sums at each point, and for the forces.
+/// With dilatation the bonds are passed over twice: for the sums at each point, and for the forces. An eigenstrain
+/// takes its mean at both ends off the stretch of each bond.
 template <int dim>
-class BondForces : public LinearTerm<dim> {
+class BondForces : public ElasticTerm<dim> {
  public:
   /// Of the intact bonds. Collective with dilatation. The model is read again later and must outlive this.
   explicit BondForces(const CoupledModel<dim>& model);
@@ -27,6 +27,7 @@ class BondForces : public LinearTerm<dim> {
   std::vector<double> dilatational_stretch() const;
 
   void add_tangent_product(base::ConstField x, base::Field force) const override;
+  void add_confinement(base::ConstField u, base::Field at_points) const override;
   void take(const bonds::BondChange& change) override;
   std::size_t bytes() const override;
 
@@ -40,7 +41,7 @@ class BondForces : public LinearTerm<dim> {
     int element;
     std::size_t shapes;  ///< position in shapes_ of the shape functions at its points, (n_corners, 4)
   };
-  CoupledModel<dim> model_;
+  using ElasticTerm<dim>::model_;
   std::map<std::pair<const elements::ReferenceElement<dim>*, int>, std::size_t> shape_tables_;
   std::vector<double> shapes_;
   std::vector<Packet> packets_;
@@ -60,6 +61,10 @@ class BondForces : public LinearTerm<dim> {
   std::optional<Dilatation> dilatation_;   ///< at the points of the packets
   mutable std::vector<double> stretches_;  ///< per packet: (4), first S and then p
 
+  // What the points of a packet add to the stretch of their bonds, (4) each; empty where that is p alone.
+  mutable std::vector<double> shrinkage_;  ///< less half of the eigenstrain
+  mutable std::vector<double> added_;      ///< and p
+
   struct Place {
     std::size_t block, position;  ///< in masks_ and in stiffness_
     unsigned bit;                 ///< of the mask
@@ -71,11 +76,14 @@ class BondForces : public LinearTerm<dim> {
   void make_dilatation();
   std::size_t lane_of(int element, int q) const;
   Place place_of(const bonds::Bond<dim>& bond) const;
+  void add_force_at(base::ConstField u, const std::vector<double>& eigenstrain, base::Field force) const override;
   void gather(const double* u) const;
+  void shrink(const std::vector<double>& eigenstrain) const;
   template <class Sum>
   void pass_over(Sum sum) const;
   template <bool on_the_fly, class Sum>
   void pass_over_blocks(Sum& sum) const;
+  template <bool shrinks>
   void dilate() const;
   void spread(double* force) const;
 };

@@ -30,6 +30,8 @@ class ContactForces : public ForceTerm<dim> {
   void prepare_tangent(base::ConstField u) override;
   void add_tangent_product(base::ConstField x, base::Field force) const override;
   void take(const bonds::BondChange& change) override;
+  void add_load_derivative(base::Field force) const override;
+  void add_confinement(base::ConstField u, base::Field at_points) const override;
   double energy(base::ConstField u) const override;
   std::size_t bytes() const override { return contacts_.size() * sizeof(Contact); }
 
@@ -78,7 +80,8 @@ class ContactForces : public ForceTerm<dim> {
 
   void add(const bonds::Bond<dim>& bond);
   void set_stiffness(Contact& contact) const;
-  Point opening(const Contact& contact, base::ConstField u) const;
+  Point opening(const Contact& contact, base::ConstField x) const;
+  Point relative_displacement(const Contact& contact, base::ConstField u) const;
   Response response(const Contact& contact, const Point& eta) const;
   Block tangent(const Contact& contact, const Response& response) const;
   void hold(const Contact& contact, const Point& on_second, base::Field force) const;

@@ -2,6 +2,7 @@
 
 #include "perimorph/bonds/bond_families.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
+#include "perimorph/discretization/eigenstrain.hpp"
 #include "perimorph/operators/morphed_stiffness.hpp"
 
 namespace perimorph::operators {
@@ -15,6 +16,7 @@ struct CoupledModel {
   const morphing::MorphingField<dim>& alpha;
   const MorphedStiffness<dim>& elasticity;
   const discretization::DofMap<dim>& dofs;
+  const discretization::Eigenstrain<dim>* eigenstrain = nullptr;  ///< null: none
 
   bool has_dilatation() const { return elasticity.has_dilatation(); }
 
@@ -41,6 +43,12 @@ struct ContactSpring {
   double slid_energy;     ///< what 1/2 pull . eta is more than that, where faces have slid, [energy]
 };
 
+/// [-], of numbers at points.
+template <int dim>
+double mean_of_ends(const std::vector<double>& at_points, const bonds::Bond<dim>& bond) {
+  return 0.5 * (at_points[bond.first_point] + at_points[bond.second_point]);
+}
+
 /// What bonds see of a displacement, at material points.
 template <int dim>
 struct PointFields {
@@ -49,10 +57,17 @@ struct PointFields {
   /// [-]; empty without dilatation
   std::vector<double> dilatational_stretch = {};
   std::vector<ContactSpring<dim>> contacts = {};  ///< that are closed; those that this rank holds
+  std::vector<double> eigenstrain = {};           ///< (n_points), [-]; empty without
+
+  /// eta of a bond, u(p) - u(x) without what the mean eigenstrain of both ends makes of xi, [length].
+  base::Point<dim> relative_displacement(const bonds::Bond<dim>& bond) const {
+    const base::Point<dim> eta = displacement[bond.second_point] - displacement[bond.first_point];
+    return eigenstrain.empty() ? eta : base::Point<dim>(eta - mean_of_ends(eigenstrain, bond) * bond.xi);
+  }
 };
 
-/// The law of a bond at its present damage [WHL19, eq. 14, 15]: a spring along xi, stretched by eta = u(p) - u(x) and
-/// by the dilatation at its ends.
+/// The law of a bond at its present damage [WHL19, eq. 14, 15]: a spring along xi, stretched by eta = u(p) - u(x), as
+/// far as that is more than the eigenstrain, and by the dilatation at its ends.
 template <int dim>
 struct BondSpring {
   base::Point<dim> xi;  ///< [length]
@@ -65,7 +80,7 @@ struct BondSpring {
   /// @param stiffness k, [force / length^3]
   BondSpring(double stiffness, const bonds::Bond<dim>& bond, const PointFields<dim>& at_points)
       : xi(bond.xi),
-        elongation(bond.xi.dot(at_points.displacement[bond.second_point] - at_points.displacement[bond.first_point])),
+        elongation(bond.xi.dot(at_points.relative_displacement(bond))),
         tension(stiffness * (elongation + dilatation(bond, at_points))) {}
 
   /// The force on its first point, (dim), [force]; on the second the opposite.

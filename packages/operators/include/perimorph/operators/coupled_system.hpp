@@ -28,16 +28,22 @@ struct SystemOptions {
   double friction = 0.;             ///< coefficient, of crack faces in contact [-]
 };
 
+/// What decides which stress a strain makes.
+template <int dim>
+struct ElasticResponse {
+  MorphedStiffness<dim> elasticity;                   ///< of the materials, without bonds yet
+  discretization::Eigenstrain<dim> eigenstrain = {};  ///< at the topology's points
+};
+
 /// The balance of the coupled model as a list of terms on a space: local elements, bonds, anchors; against them the
 /// loads. Another term joins in make_terms().
 template <int dim>
 class CoupledSystem : public NonlinearSystem {
  public:
   /// The arguments must outlive this. It has no terms before the first assemble().
-  /// @param elasticity of the material, without bonds yet
   CoupledSystem(const base::Comm& comm, const discretization::Topology<dim>& topology,
                 const discretization::Dirichlet<dim>& dirichlet, const discretization::Loads<dim>& loads,
-                MorphedStiffness<dim> elasticity, SystemOptions options, base::Profile& profile);
+                ElasticResponse<dim> response, SystemOptions options, base::Profile& profile);
 
   /// E(x) follows alpha, bonds and classes of the topology. Collective.
   void follow_morphing();
@@ -57,7 +63,7 @@ class CoupledSystem : public NonlinearSystem {
   /// changes. Collective.
   Teuchos::RCP<Tpetra::CrsMatrix<double>> whole_matrix() const;
 
-  /// From now on this load factor holds, [-]. Local.
+  /// From now on this load factor holds, [-]. Collective.
   void apply_load(double load_factor);
 
   /// Whether bonds that break change other forces than their own: with dilatation and contact. Local.
@@ -95,8 +101,18 @@ class CoupledSystem : public NonlinearSystem {
   /// How far crack faces have slid at a displacement; to be accepted by the topology, and then followed.
   bonds::Slips<dim> slips(base::ConstField u) const;
   void follow_slips();
-  /// Stored, on this rank, [energy].
+  /// Stored, on this rank, [energy]; collective with an eigenstrain.
   double elastic_energy(base::ConstField u) const;
+  const discretization::Eigenstrain<dim>& eigenstrain() const { return eigenstrain_; }
+  /// What holds back the expansion of this rank's points (ForceTerm::add_confinement), (n_owned_points), [energy];
+  /// empty without an eigenstrain. Collective.
+  std::vector<double> confinement(base::ConstField u) const;
+  /// What outer forces do work on: a displacement on owned degrees of freedom and, after it, an eigenstrain at this
+  /// rank's points. @param u on these degrees of freedom or on all local ones; @param eigenstrain at all local points
+  std::vector<double> moved(base::ConstField u, const std::vector<double>& eigenstrain) const;
+  std::vector<double> moved(base::ConstField u) const { return moved(u, eigenstrain_.at_points()); }
+  /// The forces of supports and loads together, and what expands the points, in that order. Collective.
+  std::vector<double> exerted(base::ConstField u) const;
 
   const PointFields<dim>& at_points() const { return at_points_; }  ///< at the last evaluation
   /// Of that displacement by the bonds that are left (dilatation_at_points); empty if no law of bonds sees compression.
@@ -114,6 +130,7 @@ class CoupledSystem : public NonlinearSystem {
   base::Profile& profile_;
 
   MorphedStiffness<dim> elasticity_;
+  discretization::Eigenstrain<dim> eigenstrain_;
   std::unique_ptr<discretization::Space<dim>> space_;
   ForceTerms<dim> terms_, load_terms_;
   Teuchos::RCP<BondForces<dim>> bond_forces_;  ///< also among the terms
@@ -128,6 +145,8 @@ class CoupledSystem : public NonlinearSystem {
   std::vector<double> internal_, loads_;
   bool has_forces_ = false;
   double load_factor_ = 0.;
+  std::vector<double>
+      held_expansion_;  ///< forces that it takes to hold the body still against the eigenstrain; or empty
 
   void make_terms(const Supports<dim>& supports);
   void make_matrices(const Supports<dim>& supports);

@@ -16,11 +16,11 @@ std::vector<base::Point<dim>> displacements_at_points(const CoupledModel<dim>& m
 /// Dilatation of the material points, by their bonds as they are left: theta = dim Sum c |xi|^2 (xi . eta) / Sum c
 /// |xi|^4 (Silling et al. 2007), (n_points), [-]; 0 at points without bonds, at those of other ranks as it is there.
 /// Collective.
-/// @param displacement at the points, (n_points), [length]
+/// @param at_points displacement, and eigenstrain, beyond which eta counts
 /// @param elements brings what belongs to elements from their owners
 template <int dim>
 std::vector<double> dilatation_at_points(const CoupledModel<dim>& model,
-                                         const std::vector<base::Point<dim>>& displacement,
+                                         const PointFields<dim>& at_points,
                                          const discretization::HaloExchange& elements);
 
 /// Element averages for output, (n_owned_elements); sources: [WHL19, eq. 13, 20, 21].

@@ -55,6 +55,9 @@ class ForceTerm {
   /// nodes as take() does. Local.
   virtual void update_tangent(StiffnessMatrix<dim>& /*matrix*/, std::vector<int>& /*changed*/) const {}
 
+  /// at_points += dEnergy / d eigenstrain, what holds back the expansion of a point: -w tr stress, (n_points),
+  /// [energy]; right at points of owned elements. Collective.
+  virtual void add_confinement(base::ConstField /*u*/, base::Field /*at_points*/) const {}
   /// Energy stored at a displacement, on this rank's share of the body, [energy].
   virtual double energy(base::ConstField u) const = 0;
 

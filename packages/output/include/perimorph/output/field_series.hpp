@@ -19,10 +19,11 @@ struct SeriesOptions {
   std::vector<std::string> globals;      ///< names of global variables
   std::vector<std::string> information;  ///< lines for the info records
   bool is_spread = false;                ///< each rank writes its part, or rank 0 all
+  bool has_eigenstrain = false;          ///< of a body whose temperature changes
 };
 
-/// The fields of a run: displacement, alpha, damage, class, energy and stress; a new file whenever the topology or the
-/// broken surface has changed.
+/// The fields of a run: displacement, alpha, damage, class, energy, stress and eigenstrain; a new file whenever the
+/// topology or the broken surface has changed.
 template <int dim>
 class FieldSeries {
  public:
@@ -46,7 +47,7 @@ class FieldSeries {
 
  private:
   Teuchos::RCP<const base::Comm> comm_;
-  bool is_spread_;
+  bool is_spread_, has_eigenstrain_;
   std::vector<io::FileExtent> files_;                               ///< on rank 0
   std::size_t n_closed_files_;                                      ///< of them
   std::unique_ptr<io::ExodusSeries<dim>> series_;                   ///< on ranks that write
