@@ -219,7 +219,7 @@ double curvature_of(const Strip& strip, bool has_zone) {
   constexpr double strain = 0.001, height = 8.;
   const double interface = height * strip.thickness_ratio / (1. + strip.thickness_ratio);
   Specimen specimen{grid({96, 16, 48., height}), 1.5, 0.15};
-  specimen.whole.block_names.push_back("upper");
+  specimen.whole.block_names.emplace_back("upper");
   for (int e = 0; e < specimen.whole.n_elements(); ++e) {
     specimen.whole.blocks[e] = mesh::centroid(specimen.whole, e)[1] > interface ? 1 : 0;
   }

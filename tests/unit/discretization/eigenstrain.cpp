@@ -23,7 +23,7 @@ class EigenstrainOfTwoBlocks : public testing::Test {
  protected:
   mesh::Mesh<2> mesh = [] {
     auto two = grid({4, 2, 4., 2.});
-    two.block_names.push_back("right");
+    two.block_names.emplace_back("right");
     for (int e = 0; e < two.n_elements(); ++e) two.blocks[e] = is_right(mesh::centroid(two, e)) ? 1 : 0;
     return two;
   }();
