@@ -82,8 +82,9 @@ INSTANTIATE_TEST_SUITE_P(
                 ":11: /Peridynamics/Horizon: missing; needed is a number > 0"},
         Mistake{"ParameterOfAnEntry", R"xml(<Parameter name="Group" type="string" value="left"/>)xml", "",
                 ":37: /Boundary Conditions/Displacements/hold/Group: missing; needed is the name of a group"},
-        Mistake{"Component", R"xml(<Parameter name="Component" type="string" value="x"/>)xml", "",
-                R"xml(:37: /Boundary Conditions/Displacements/hold/Component: missing; needed is either it or a "Direction")xml"},
+        Mistake{
+            "Component", R"xml(<Parameter name="Component" type="string" value="x"/>)xml", "",
+            R"xml(:37: /Boundary Conditions/Displacements/hold/Component: missing; needed is either it or a "Direction")xml"},
         Mistake{"Section", "<Parameter " + increments + "/>", "",
                 ":58: /Loading/Increments: missing; needed is a whole number >= 1"},
         Mistake{"Points", R"xml(<Parameter name="Points" type="Array(double)" value="{0, 0, 5, 0}"/>)xml", "",
@@ -252,22 +253,24 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"DirectionOfThree", R"xml(<Parameter name="Component" type="string" value="x"/>)xml",
                 R"xml(<Parameter name="Direction" type="Array(double)" value="{1, 0, 1}"/>)xml",
                 "/hold/Direction: found {1, 0, 1}; allowed are 2 numbers, one per dimension"},
-        Mistake{"RotationOfNoRigidGroup", R"xml(value="x")xml", R"xml(value="rotation z")xml",
-                R"xml(/hold/Component: found "rotation z" of the group "left", which is no rigid body; allowed is it )xml"
-                R"xml(for groups of /Boundary Conditions/Rigid Groups with "Shared" = "Rigid Motion")xml"},
+        Mistake{
+            "RotationOfNoRigidGroup", R"xml(value="x")xml", R"xml(value="rotation z")xml",
+            R"xml(/hold/Component: found "rotation z" of the group "left", which is no rigid body; allowed is it )xml"
+            R"xml(for groups of /Boundary Conditions/Rigid Groups with "Shared" = "Rigid Motion")xml"},
         Mistake{"RigidGroupTwice", R"xml(<ParameterList name="Tractions">)xml",
                 R"xml(<ParameterList name="Rigid Groups">
                      <ParameterList name="a"><Parameter name="Group" type="string" value="left"/></ParameterList>
                      <ParameterList name="b"><Parameter name="Group" type="string" value="left"/></ParameterList>
                    </ParameterList><ParameterList name="Tractions">)xml",
                 R"xml(/Boundary Conditions/Rigid Groups/b/Group: found "left" again; allowed is each group once)xml"},
-        Mistake{"CenterOfWhatDoesNotTurn", R"xml(<ParameterList name="Tractions">)xml",
-                R"xml(<ParameterList name="Rigid Groups"><ParameterList name="a">
+        Mistake{
+            "CenterOfWhatDoesNotTurn", R"xml(<ParameterList name="Tractions">)xml",
+            R"xml(<ParameterList name="Rigid Groups"><ParameterList name="a">
                      <Parameter name="Group" type="string" value="top"/>
                      <Parameter name="Shared" type="string" value="y"/>
                      <Parameter name="Center" type="Array(double)" value="{0, 0}"/>
                    </ParameterList></ParameterList><ParameterList name="Tractions">)xml",
-                R"xml(/a/Center: found with "Shared" = "y", where it has no effect; allowed is it with "Rigid Motion")xml"},
+            R"xml(/a/Center: found with "Shared" = "y", where it has no effect; allowed is it with "Rigid Motion")xml"},
         Mistake{
             "PrescribedTwice", R"xml(value="right"/>)xml", R"xml(value="left"/>)xml",
             R"xml(:43: /Boundary Conditions/Displacements/pull/Component: found the group "left" with "x" again; )xml"

@@ -50,7 +50,7 @@ struct SpecimenIn {
   double friction = 0.;  ///< coefficient
   std::vector<discretization::RigidGroup> rigid_groups = {};
   std::optional<double> compressive_strength = {};  ///< none: that of bonds which break by their stretch alone
-  double thermal_expansion = 0.;  ///< of the body's material, as data sheets give it
+  double thermal_expansion = 0.;                    ///< of the body's material, as data sheets give it
   std::vector<discretization::TemperatureChange<dim>> temperature_changes = {};
 };
 using Specimen = SpecimenIn<2>;

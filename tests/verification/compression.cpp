@@ -61,9 +61,9 @@ double factor_of_first_break(const Uniform<dim>& uniform) {
   test.body.prescribe(share);
   test.body.update_topology();
   test.body.solve(fracture::Accuracy::accepted);
-  const auto ratios =
-      test.body.topology().bonds().overstretches(test.body.system().at_points().displacement,
-                                                 test.body.topology().classes(), 1e-9, {{}, test.body.system().dilatation()});
+  const auto ratios = test.body.topology().bonds().overstretches(test.body.system().at_points().displacement,
+                                                                 test.body.topology().classes(), 1e-9,
+                                                                 {{}, test.body.system().dilatation()});
   if (ratios.empty()) return std::numeric_limits<double>::infinity();
   return share / *std::max_element(ratios.begin(), ratios.end());
 }

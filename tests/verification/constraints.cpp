@@ -39,7 +39,8 @@ SpecimenIn<dim> on_rollers(const Turn<dim>& turn, double end_of_guide = std::num
     specimen.whole = brick({5, 4, 4, 0.1});
   }
   for (auto& x : specimen.whole.coordinates) x = (turn * x).eval();
-  specimen.seeds = {dim == 2 ? Zone<dim>::ball(turn * (base::Point<dim>::Ones() * 5.), 4., 6.) : Zone<dim>::everything()};
+  specimen.seeds = {dim == 2 ? Zone<dim>::ball(turn * (base::Point<dim>::Ones() * 5.), 4., 6.)
+                             : Zone<dim>::everything()};
   specimen.critical_stretch = 0.02;
   specimen.discontinuous = DiscontinuousElements::whole_zone;
   specimen.tolerance = 1e-11;
@@ -124,8 +125,8 @@ SpecimenIn<dim> pressed(std::vector<RigidGroup> groups) {
     for (const auto& side : specimen.whole.boundary) {
       const auto middle = mesh::centroid(specimen.whole, side.element);
       const auto nodes = mesh::side_nodes(specimen.whole, side);
-      const bool is_at_end = std::all_of(nodes.begin(), nodes.end(),
-                                         [&](int node) { return specimen.whole.coordinates[node][0] == 5.; });
+      const bool is_at_end =
+          std::all_of(nodes.begin(), nodes.end(), [&](int node) { return specimen.whole.coordinates[node][0] == 5.; });
       if (is_at_end && middle[1] < 2.) specimen.whole.side_sets["right"].push_back(side);
     }
     specimen.tractions = {{"right", {Point3(-1., 0.4, 0.2), Point3::Zero()}}};

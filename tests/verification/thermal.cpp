@@ -308,7 +308,9 @@ TEST_P(HeatedPlate, IsAsOneWhoseSupportsAreMovedTheOtherWay) {
   const double tolerance = (GetParam().law ? 5e-3 : 1e-3) * size;
   EXPECT_GT(size, 0.);
   EXPECT_EQ(heated.broken, moved.broken);
-  if (GetParam().pull > 0. && !GetParam().law) { EXPECT_GT(moved.broken, 0); }
+  if (GetParam().pull > 0. && !GetParam().law) {
+    EXPECT_GT(moved.broken, 0);
+  }
   EXPECT_NEAR(heated.energies.elastic, moved.energies.elastic, tolerance);
   EXPECT_NEAR(heated.energies.dissipated, moved.energies.dissipated, tolerance);
   EXPECT_NEAR(heated.energies.external_work, moved.energies.external_work, tolerance);

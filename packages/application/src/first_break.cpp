@@ -13,8 +13,8 @@ namespace {
 /// The largest stretch over its limit among the bonds that may break or soften, of all ranks; 0 if none reaches the
 /// threshold. Collective.
 template <int dim>
-double largest_ratio(const base::Comm& comm, const fracture::Body<dim>& body, bonds::PointStrains strains, double factor,
-                     double threshold) {
+double largest_ratio(const base::Comm& comm, const fracture::Body<dim>& body, bonds::PointStrains strains,
+                     double factor, double threshold) {
   auto u = body.system().at_points().displacement;
   for (auto& one : u) one *= factor;
   for (auto* values : {&strains.eigenstrain, &strains.dilatation}) {

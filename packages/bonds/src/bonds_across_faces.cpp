@@ -39,10 +39,7 @@ class Search {
  public:
   Search(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points, double horizon,
          const BoundarySides& sides, const std::vector<mesh::CrackFacet<dim>>& pre_cracks)
-      : points_(points),
-        horizon_(horizon),
-        faces_(mesh, sides.facing, pre_cracks),
-        walls_(mesh, sides.outer, {}) {}
+      : points_(points), horizon_(horizon), faces_(mesh, sides.facing, pre_cracks), walls_(mesh, sides.outer, {}) {}
 
   /// Turns to the element with that centroid; returns whether there are faces in its reach.
   bool start(const Point<dim>& center, double reach) {

@@ -34,9 +34,10 @@ void declare_displacement(const input::Section& section, PrescribedComponent& on
                           "What is held or moved; all else stays free. z in three dimensions only. Of a rigid group "
                           "(Rigid Groups) it is that of its centre, or a small rotation about an axis through it, "
                           "[rad]; in two dimensions about z.");
-  section.optional("Direction", one.direction, {0.6, 0.8}, numbers("{x, y} or {x, y, z}"),
-                   "Instead of a component: the direction along which the displacement is held or moved, one number "
-                   "per dimension; its length does not matter. Across it the nodes stay free, as on an inclined roller.");
+  section.optional(
+      "Direction", one.direction, {0.6, 0.8}, numbers("{x, y} or {x, y, z}"),
+      "Instead of a component: the direction along which the displacement is held or moved, one number "
+      "per dimension; its length does not matter. Across it the nodes stay free, as on an inclined roller.");
   section.parameter("Rate", one.value.rate, any_number(),
                     "[length per increment]: what loads the body; 0 holds it. Its sign is that of the axis.");
   section.parameter("Constant", one.value.constant, any_number(), "[length], there from the first increment on.");
@@ -85,8 +86,9 @@ void check_direction(const input::Values& displacement, const Shared& rigid, int
                                                   displacement.shown("Direction")));
   }
   if (group == nullptr || rigid.count(*group) == 0) return;
-  displacement.mistake("Direction", fmt::format("found with the rigid group {}; allowed is a \"Component\" of its motion",
-                                                input::in_quotes(*group)));
+  displacement.mistake(
+      "Direction",
+      fmt::format("found with the rigid group {}; allowed is a \"Component\" of its motion", input::in_quotes(*group)));
 }
 
 /// Only rigid bodies turn, and what a group shares need not be prescribed for each node.
@@ -96,10 +98,10 @@ void check_component(const input::Values& displacement, const Shared& rigid) {
   const auto found = rigid.find(*group);
   const bool is_rigid_body = found != rigid.end() && found->second == shared[0].word;
   if (input::value_of(components, *component) < first_rotation || is_rigid_body) return;
-  displacement.mistake("Component", fmt::format("found {} of the group {}, which is no rigid body; allowed is it for "
-                                                "groups of /Boundary Conditions/Rigid Groups with \"Shared\" = \"{}\"",
-                                                input::in_quotes(*component), input::in_quotes(*group),
-                                                shared[0].word));
+  displacement.mistake("Component",
+                       fmt::format("found {} of the group {}, which is no rigid body; allowed is it for "
+                                   "groups of /Boundary Conditions/Rigid Groups with \"Shared\" = \"{}\"",
+                                   input::in_quotes(*component), input::in_quotes(*group), shared[0].word));
 }
 
 Shared check_rigid_groups(const input::Values& conditions, int dimension) {

@@ -111,7 +111,8 @@ class Checks {
       add(fmt::format("{}/{}", displacements_path, b.name),
           fmt::format("prescribes another {} than {}/{} on {} that both groups have, the first at "
                       "({:.6g}); allowed is one value per node",
-                      discretization::name_of_displacement(b), displacements_path, a.name, base::counted(nodes.size(), "node"),
+                      discretization::name_of_displacement(b), displacements_path, a.name,
+                      base::counted(nodes.size(), "node"),
                       fmt::join(mesh_.coordinates[nodes[0]].begin(), mesh_.coordinates[nodes[0]].end(), ", ")));
     }
   }

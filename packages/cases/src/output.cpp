@@ -70,10 +70,10 @@ void declare(const input::Section& section, Output& output) {
       "anyway. "
       "With Checkpoint Every, checkpoints within an increment are taken after every twentieth solve, and the "
       "preconditioner is then set up again (not if this is 0). The last two are kept.");
-  section.parameter(
-      "Reactions", output.reactions, names("a list of groups such as {left, right}"),
-      "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed displacement, and each rigid group, for which the moment about its "
-      "centre and the rotation are recorded, too.");
+  section.parameter("Reactions", output.reactions, names("a list of groups such as {left, right}"),
+                    "Groups whose reaction force is recorded in history.csv; {} means each group with a prescribed "
+                    "displacement, and each rigid group, for which the moment about its "
+                    "centre and the rotation are recorded, too.");
   section.parameter(
       "Crack", output.records_crack, flag(),
       "Whether the crack is recorded: in crack.csv its length for each increment, in crack_path.csv the sides of "

@@ -406,8 +406,7 @@ void describe_hinges(const mesh::Mesh<dim>& mesh, std::vector<std::string>& line
 template <int dim>
 void check_free_motions(const Case& input, const mesh::Mesh<dim>& whole, input::Mistakes& mistakes) {
   const auto& conditions = input.boundary_conditions;
-  const auto lines =
-      FreeMotions<dim>(whole, conditions.rigid_groups).describe(normalized(conditions.displacements));
+  const auto lines = FreeMotions<dim>(whole, conditions.rigid_groups).describe(normalized(conditions.displacements));
   const auto add = [&](const std::string& what) {
     mistakes.add(input::line_of(input.lines, displacements_path), displacements_path, what);
   };

@@ -18,10 +18,10 @@ Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
   groups_ = group_motions(comm, mesh, groups, conditions);
   base::on_all_ranks(comm, [&] {
     for (const auto& [first, second, node] : contradictions(mesh, conditions, groups)) {
-      throw base::UserError(fmt::format(
-          "the displacements \"{}\" and \"{}\" prescribe different values for the {} of the node at ({})",
-          conditions[first].name, conditions[second].name, name_of_displacement(conditions[second]),
-          fmt::join(mesh.coordinates[node], ", ")));
+      throw base::UserError(
+          fmt::format("the displacements \"{}\" and \"{}\" prescribe different values for the {} of the node at ({})",
+                      conditions[first].name, conditions[second].name, name_of_displacement(conditions[second]),
+                      fmt::join(mesh.coordinates[node], ", ")));
     }
     auto on_nodes = conditions;
     on_nodes.erase(std::remove_if(on_nodes.begin(), on_nodes.end(),

@@ -32,7 +32,7 @@ class PrescribedAtNode {
   }
 
  private:
-  std::vector<int> numbers_;  ///< of conditions
+  std::vector<int> numbers_;                                                              ///< of conditions
   Eigen::Matrix<double, dim, dim> directions_ = Eigen::Matrix<double, dim, dim>::Zero();  ///< columns: theirs
 
   /// The first condition that has a share in a value which is not the sum of them all; -1 if it is.
@@ -98,8 +98,8 @@ std::vector<Contradiction> contradictions(const mesh::Mesh<dim>& mesh,
   return all;
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                                  \
-  template base::Point<dim> direction_of<dim>(const PrescribedComponent&);                                          \
+#define PERIMORPH_INSTANTIATE(dim)                                                                                    \
+  template base::Point<dim> direction_of<dim>(const PrescribedComponent&);                                            \
   template std::vector<Contradiction> contradictions(const mesh::Mesh<dim>&, const std::vector<PrescribedComponent>&, \
                                                      const std::vector<RigidGroup>&);
 

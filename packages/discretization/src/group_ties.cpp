@@ -28,7 +28,8 @@ MatrixXd orthonormal(const base::Comm& comm, const MatrixXd& columns, Index n_ow
   std::vector<double> sums(products.data(), products.data() + products.size());
   base::sum(comm, sums);
   const Eigen::Map<const MatrixXd> all(sums.data(), products.rows(), products.cols());
-  const VectorXd scale = all.diagonal().unaryExpr([](double square) { return square > 0. ? 1. / std::sqrt(square) : 0.; });
+  const VectorXd scale =
+      all.diagonal().unaryExpr([](double square) { return square > 0. ? 1. / std::sqrt(square) : 0.; });
   const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(scale.asDiagonal() * all * scale.asDiagonal());
   MatrixXd result(columns.rows(), 0);
   for (Index i = 0; i < columns.cols(); ++i) {

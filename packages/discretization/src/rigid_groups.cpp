@@ -130,11 +130,11 @@ std::vector<GroupMotion<dim>> group_motions(const base::Comm& comm, const mesh::
   return motions;
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                                \
-  template std::vector<GroupConflict> group_conflicts(const mesh::Mesh<dim>&, const std::vector<RigidGroup>&,     \
-                                                      const std::vector<PrescribedComponent>&);                   \
-  template std::vector<GroupMotion<dim>> group_motions(const base::Comm&, const mesh::Mesh<dim>&,                 \
-                                                       const std::vector<RigidGroup>&,                            \
+#define PERIMORPH_INSTANTIATE(dim)                                                                            \
+  template std::vector<GroupConflict> group_conflicts(const mesh::Mesh<dim>&, const std::vector<RigidGroup>&, \
+                                                      const std::vector<PrescribedComponent>&);               \
+  template std::vector<GroupMotion<dim>> group_motions(const base::Comm&, const mesh::Mesh<dim>&,             \
+                                                       const std::vector<RigidGroup>&,                        \
                                                        const std::vector<PrescribedComponent>&);
 
 PERIMORPH_INSTANTIATE(2)

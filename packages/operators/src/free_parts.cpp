@@ -58,7 +58,8 @@ base::DisjointSets joined_nodes(const CoupledModel<dim>& model, const Ties<dim>&
   return joined;
 }
 
-/// Gives all nodes of a group the lowest number that any of them has; returns whether that changes one here. Collective.
+/// Gives all nodes of a group the lowest number that any of them has; returns whether that changes one here.
+/// Collective.
 bool join_groups(const base::Comm& comm, const std::vector<std::vector<int>>& groups, std::vector<GlobalId>& part) {
   bool has_changed = false;
   for (const auto& group : groups) {
@@ -180,7 +181,8 @@ std::string what_is_free(const base::Comm& comm, const CoupledModel<dim>& model,
     return fmt::format("the part of {} of {} nodes around ({:.6g})", part.n_nodes, model.dofs.n_global_nodes(),
                        fmt::join(part.center, ", "));
   };
-  if (const auto free = free_parts<dim>(comm, model, space, loads, {contacts, space.groups().nodes(), {}}); !free.empty()) {
+  if (const auto free = free_parts<dim>(comm, model, space, loads, {contacts, space.groups().nodes(), {}});
+      !free.empty()) {
     return fmt::format("no equilibrium exists: {} is free, and a load of ({:.6g}) acts on it", description_of(free[0]),
                        fmt::join(free[0].load, ", "));
   }

@@ -160,8 +160,7 @@ void StiffnessMatrix<dim>::make_matrix() {
 template <int dim>
 void StiffnessMatrix<dim>::add_block(int row, int column, const Block& of_nodes) {
   if (of_nodes.isZero(0.)) return;  // perhaps no entry either
-  const Block block =
-      space_.frames().is_empty() ? of_nodes : space_.frames().between_unknowns(row, column, of_nodes);
+  const Block block = space_.frames().is_empty() ? of_nodes : space_.frames().between_unknowns(row, column, of_nodes);
   const int* begin = columns_.data() + first_[row];
   const int* end = columns_.data() + first_[row + 1];
   const std::size_t width = static_cast<std::size_t>(end - begin) * dim;

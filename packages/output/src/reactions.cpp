@@ -133,9 +133,9 @@ void measure(const base::Comm& comm, int increment, const fracture::Body<dim>& b
   }
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                               \
-  template std::vector<Reaction> reactions_of<dim>(const std::vector<std::string>&,                              \
-                                                   const std::vector<discretization::RigidGroup>&);              \
+#define PERIMORPH_INSTANTIATE(dim)                                                                  \
+  template std::vector<Reaction> reactions_of<dim>(const std::vector<std::string>&,                 \
+                                                   const std::vector<discretization::RigidGroup>&); \
   template void measure(const base::Comm&, int, const fracture::Body<dim>&, std::vector<Reaction>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -43,8 +43,7 @@ class LooseAnchors {
 /// Corrects u, and goes back along the correction where that leads too far: to about where the residual does no work on
 /// it any more. Springs that only push, or slide, may close and open in turn otherwise.
 /// @param residual at u, and then at the corrected one, whose norms are returned
-operators::NonlinearSystem::Norms correct(operators::NonlinearSystem& system, base::Field u,
-                                          Vector& residual,
+operators::NonlinearSystem::Norms correct(operators::NonlinearSystem& system, base::Field u, Vector& residual,
                                           const Vector& correction) {
   constexpr int most_cuts = 10;
   constexpr double far = 0.5;  // the work that holds it back, over that which drove it

@@ -9,8 +9,8 @@
 namespace perimorph::solvers {
 
 /// A preconditioner B that holds the unknowns of groups fast, completed by their motions Q, which take the rest of the
-/// body along: B + Z (Z^T A Z)^-1 Z^T, where Z is Q after some steps Z - B A Z. It is the factorization by blocks, with B
-/// for the inverse of the stiffness of all that is not held.
+/// body along: B + Z (Z^T A Z)^-1 Z^T, where Z is Q after some steps Z - B A Z. It is the factorization by blocks, with
+/// B for the inverse of the stiffness of all that is not held.
 class WithGroups : public Operator {
  public:
   /// Collective. Operator and groups are read here only.

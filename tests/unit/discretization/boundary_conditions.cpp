@@ -89,8 +89,8 @@ TEST_P(BoundaryConditions, ALoadThatEndsIsGoneWithItsConstant) {
 
 TEST_P(BoundaryConditions, ContradictoryDisplacementsOfACommonNodeAreTheUsersMistakeOnAllRanks) {
   const std::string error = error_of({{"pull", "right", 1, {0.1, 0.}}, {"hold", "top", 1, {0., 0.}}});
-  EXPECT_THAT(error, AllOf(HasSubstr("\"pull\" and \"hold\" prescribe different values"), HasSubstr("the y displacement"),
-                           HasSubstr("the node at (3, 2)")));
+  EXPECT_THAT(error, AllOf(HasSubstr("\"pull\" and \"hold\" prescribe different values"),
+                           HasSubstr("the y displacement"), HasSubstr("the node at (3, 2)")));
 }
 
 TEST_P(BoundaryConditions, DirectionsContradictOthersThatDecideThem) {

@@ -41,7 +41,8 @@ void check_boundary_conditions(const input::Values& section, int dimension);
 
 /// The condition with a direction of length 1, or along an axis with that component. Local.
 discretization::PrescribedComponent normalized(discretization::PrescribedComponent condition);
-std::vector<discretization::PrescribedComponent> normalized(std::vector<discretization::PrescribedComponent> conditions);
+std::vector<discretization::PrescribedComponent> normalized(
+    std::vector<discretization::PrescribedComponent> conditions);
 
 /// What a rigid group's nodes have in common, in the words of the case file. Local.
 std::string shared_by(const discretization::RigidGroup& group);

@@ -37,8 +37,8 @@ struct GroupMotion {
   };
 
   std::string name;
-  int shared_component;     ///< -1: none
-  std::vector<int> nodes;   ///< those on this rank, of the reference mesh, ascending
+  int shared_component;                ///< -1: none
+  std::vector<int> nodes;              ///< those on this rank, of the reference mesh, ascending
   std::vector<base::Point<dim>> arms;  ///< from the center to them, [length]
   std::vector<Prescribed> prescribed = {};
 };

@@ -19,8 +19,7 @@ std::vector<base::Point<dim>> displacements_at_points(const CoupledModel<dim>& m
 /// @param at_points displacement, and eigenstrain, beyond which eta counts
 /// @param elements brings what belongs to elements from their owners
 template <int dim>
-std::vector<double> dilatation_at_points(const CoupledModel<dim>& model,
-                                         const PointFields<dim>& at_points,
+std::vector<double> dilatation_at_points(const CoupledModel<dim>& model, const PointFields<dim>& at_points,
                                          const discretization::HaloExchange& elements);
 
 /// Element averages for output, (n_owned_elements); sources: [WHL19, eq. 13, 20, 21].

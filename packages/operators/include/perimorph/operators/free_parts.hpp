@@ -10,8 +10,8 @@ namespace perimorph::operators {
 
 /// Why there may be no equilibrium: the first part of the body that loads act on and nothing holds, or nothing but
 /// bonds that would break, in words; empty if there is none. Parts are what elements, unbroken bonds, closed
-/// contacts and rigid groups hold together. That a part which is held may still turn is not looked at. The same on all ranks.
-/// Collective.
+/// contacts and rigid groups hold together. That a part which is held may still turn is not looked at. The same on all
+/// ranks. Collective.
 /// @param loads on owned degrees of freedom, [force]
 /// @param contacts that are closed
 /// @param failing bonds beyond their critical stretch, by ascending number

@@ -8,9 +8,9 @@
 
 namespace perimorph::operators {
 
-/// Stiffness on the diagonal of every form of K, per owned degree of freedom, [force / length]. The row and column of one
-/// that is constrained are zero but for it. The nodes of discontinuous elements are anchored by a vanishing
-/// spring, so that K stays definite when pieces come to float.
+/// Stiffness on the diagonal of every form of K, per owned degree of freedom, [force / length]. The row and column of
+/// one that is constrained are zero but for it. The nodes of discontinuous elements are anchored by a vanishing spring,
+/// so that K stays definite when pieces come to float.
 template <int dim>
 struct Supports {
   static constexpr double anchor = 1e-8;  ///< share of the stiffness E0 h^(dim - 2) that anchors have

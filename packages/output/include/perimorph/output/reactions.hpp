@@ -10,9 +10,9 @@ namespace perimorph::output {
 /// The force that supports exert on a group of nodes in one direction, over all ranks; on a rigid group also the moment
 /// about its centre.
 struct Reaction {
-  std::string column;  ///< "<group>_<x|y|z>", or "<group>_rotation_<x|y|z>"
-  std::string group;   ///< a node set of the mesh
-  int component;       ///< as discretization::PrescribedComponent has it
+  std::string column;        ///< "<group>_<x|y|z>", or "<group>_rotation_<x|y|z>"
+  std::string group;         ///< a node set of the mesh
+  int component;             ///< as discretization::PrescribedComponent has it
   double force = 0.;         ///< in the last accepted increment, [force]; a moment, [force * length]
   double displacement = 0.;  ///< mean over the group, in the last accepted increment, [length]; a rotation, [rad]
   double peak = 0.;          ///< the largest force so far, with its sign

@@ -20,8 +20,8 @@ struct SolverParameters {
   Teuchos::ParameterList belos, muelu;  ///< overrides
 };
 
-/// Unknowns that the preconditioner's matrix holds fast, and how they can move all the same: motions of groups that move
-/// as one.
+/// Unknowns that the preconditioner's matrix holds fast, and how they can move all the same: motions of groups that
+/// move as one.
 struct GroupMotions {
   std::vector<int> rows;                     ///< owned
   std::vector<std::vector<double>> motions;  ///< orthonormal, (n_owned unknowns) each, zero in all other rows [-]
