@@ -22,7 +22,8 @@ int rank_of_process() {
 bool is_out_of_memory(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return true;
   if (dynamic_cast<const MemoryError*>(&error) != nullptr) return true;
-  return std::string(error.what()).rfind("Kokkos failed to allocate memory", 0) == 0;  // a std::runtime_error
+  const std::string what = error.what();  // Kokkos throws a std::runtime_error; Tpetra another, with what it has caught
+  return what.rfind("Kokkos failed to allocate memory", 0) == 0 || what.find("std::bad_alloc") != std::string::npos;
 }
 
 void fail_assertion(const char* file, int line, const char* condition, const std::string& values) {

@@ -24,12 +24,11 @@ Point<dim> position(const StretchedPlace<dim>& place) {
 template <int dim>
 std::vector<char> held_nodes(const mesh::Mesh<dim>& mesh, const Problem<dim>& problem) {
   std::vector<char> held(mesh.n_nodes(), 0);
-  for (const auto& condition : problem.displacements) {
-    for (const int node : mesh.node_sets.at(condition.node_set)) held[node] = 1;
-  }
-  for (const auto& group : problem.rigid_groups) {
-    for (const int node : mesh.node_sets.at(group.node_set)) held[node] = 1;
-  }
+  const auto hold = [&](const auto& one) {
+    for (const int node : mesh.node_sets.at(one.node_set)) held[node] = 1;
+  };
+  std::for_each(problem.displacements.begin(), problem.displacements.end(), hold);
+  std::for_each(problem.rigid_groups.begin(), problem.rigid_groups.end(), hold);
   return held;
 }
 
