@@ -114,7 +114,7 @@ TEST(ObliqueSupports, AreAMistakeWhereTheyDecideTwice) {
 
 /// A block that is pressed by an inclined traction beside its middle, on a rough base.
 template <int dim>
-SpecimenIn<dim> pressed(std::vector<RigidGroup> groups) {
+SpecimenIn<dim> pressed(const std::vector<RigidGroup>& groups) {
   SpecimenIn<dim> specimen{{}, dim == 2 ? 2.5 : 1.5, 0.3};
   if constexpr (dim == 2) {
     specimen.whole = grid({12, 10, 12., 10., Point2::Zero(), 0.1});
@@ -135,7 +135,7 @@ SpecimenIn<dim> pressed(std::vector<RigidGroup> groups) {
   specimen.discontinuous = DiscontinuousElements::whole_zone;
   specimen.tolerance = 1e-11;
   for (int c = 0; c < dim; ++c) specimen.displacements.push_back({"hold", dim == 2 ? "bottom" : "left", c, {0., 0.}});
-  specimen.rigid_groups = std::move(groups);
+  specimen.rigid_groups = groups;
   return specimen;
 }
 
