@@ -111,7 +111,7 @@ TEST_F(CaseFile, MistakesOfTemperaturesAreNamed) {
       {{rate, alpha_t, positions, factors}, at + "Direction: missing; a profile needs"},
       {{rate, alpha_t, cold + "Direction={0, 1, 0}", positions, factors}, at + "Direction: found"},
       {{rate, alpha_t, cold + "Direction={0, 0}", positions, factors},
-       at + "Direction: found {0, 0}; allowed is a direction that is not zero"},
+       at + "Direction: found {0, 0}; allowed is a direction, which has a length"},
       {{rate, alpha_t, direction, cold + "Positions={4, 4}", factors},
        at + "Positions: found {4, 4}; allowed are two or more, each greater than the one before"},
       {{rate, alpha_t, direction, positions, cold + "Factors={1}"},

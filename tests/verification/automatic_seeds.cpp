@@ -1,6 +1,6 @@
 // Automatic seeds go where cracks start: to the tips of notches, the same on any number of ranks.
 
-#include "perimorph/fracture/automatic_seeds.hpp"
+#include "perimorph/application/automatic_seeds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace perimorph::tests {
 namespace {
 
-using Place = fracture::StretchedPlace<2>;
+using Place = application::StretchedPlace<2>;
 
 /// A plate of 30 x 40, pulled along y, with notches of width 2 at half height from either side.
 Specimen notched_plate(double left_depth, double right_depth) {
@@ -30,7 +30,7 @@ std::vector<Place> places(const Specimen& specimen, const Teuchos::RCP<const bas
   test.body.apply_load(1.);
   test.body.update_topology();
   test.body.solve(fracture::Accuracy::accepted);
-  return fracture::most_stretched<2>(*comm, test.body, test.problem, {"seed", 6., 12., share});
+  return application::most_stretched<2>(*comm, test.body, test.problem, {"seed", 6., 12., share});
 }
 
 /// All ranks' answer, which must be that of each rank alone.
@@ -101,8 +101,8 @@ TEST(AutomaticSeed, IsPlacedUnderTheLargestLoadOfStepsThatEndWithNone) {
   problem.automatic_seeds = {{"seed", 6., 12., 0.8}};
   base::Profile profile;
 
-  fracture::place_automatic_seeds<2>(comm, mesh, make_options(specimen), 4, problem, profile,
-                                     base::make_log(*comm, true));
+  application::place_automatic_seeds<2>(comm, mesh, make_options(specimen), 4, problem, profile,
+                                        base::make_log(*comm, true));
 
   ASSERT_EQ(problem.seeds.size(), 1u);
   EXPECT_EQ(problem.seeds[0].alpha({10., 20.}, morphing::BlendingFunction::linear), 1.);

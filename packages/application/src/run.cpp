@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "outlook.hpp"
+#include "perimorph/application/automatic_seeds.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/sums.hpp"
 #include "perimorph/base/temporary_folder.hpp"
 #include "perimorph/base/text.hpp"
 #include "perimorph/cases/advice.hpp"
 #include "perimorph/cases/problem.hpp"
-#include "perimorph/fracture/automatic_seeds.hpp"
 #include "perimorph/input/resolved.hpp"
 #include "perimorph/mesh/mesh_report.hpp"
 #include "perimorph/model/calibration.hpp"
@@ -88,7 +88,7 @@ template <int dim>
 std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh,
                                              const cases::Case& input, int increments, Problem<dim>& problem,
                                              base::Profile& profile, const base::Log& log) {
-  fracture::place_automatic_seeds(comm, mesh, input.numerical, increments, problem, profile, log);
+  place_automatic_seeds(comm, mesh, input.numerical, increments, problem, profile, log);
   warn_of_seeds_everywhere(*comm, mesh, input, problem, log);
   const double size = model::element_size(*comm, mesh, problem);
   const bool is_calibrated = model::calibrate_to_mesh(problem, input.numerical, size);

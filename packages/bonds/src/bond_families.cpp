@@ -202,11 +202,10 @@ typename BondFamilies<dim>::Extremes BondFamilies<dim>::neighbourhood_extremes(
 /// visit(bond, s, its law) where the stretch s reaches threshold(its law); s is beyond the eigenstrain
 template <int dim>
 template <class Threshold, class Visit>
-void BondFamilies<dim>::for_each_stretched(const AtPoints& at_points,
-                                           const std::vector<morphing::ElementClass>& classes, Threshold threshold,
+void BondFamilies<dim>::for_each_stretched(const std::vector<Point<dim>>& displacements,
+                                           const std::vector<morphing::ElementClass>& classes,
+                                           const std::vector<double>& eigenstrain, Threshold threshold,
                                            Visit visit) const {
-  const std::vector<Point<dim>>& displacements = at_points.displacements;
-  const std::vector<double>& eigenstrain = at_points.eigenstrain;
   PERIMORPH_ASSERT(static_cast<int>(displacements.size()) == points_.size(), "{} displacements of {} points",
                    displacements.size(), points_.size());
   PERIMORPH_ASSERT(eigenstrain.empty() || eigenstrain.size() == displacements.size(), "eigenstrain at {} of {} points",
@@ -226,21 +225,12 @@ void BondFamilies<dim>::for_each_stretched(const AtPoints& at_points,
       if (bond.is_broken) return;
       const Point<dim> eta = displacements[bond.second_point] - displacements[bond.first_point];
       PERIMORPH_DEBUG_ASSERT(eta.allFinite(), "a point of bond {} is displaced to nowhere", bond.id);
-      const double free =
-          eigenstrain.empty() ? 0. : 0.5 * (eigenstrain[bond.first_point] + eigenstrain[bond.second_point]);
+      const double free = bond.mean_of(eigenstrain);
       const double least = limit + free;
       if ((bond.xi + eta).squaredNorm() < least * least * bond.xi.squaredNorm()) return;
       visit(bond, std::sqrt((bond.xi + eta).squaredNorm() / bond.xi.squaredNorm()) - 1. - free, law);
     });
   }
-}
-
-/// What counts of a bond's stretch.
-template <int dim>
-double BondFamilies<dim>::counted_stretch(const Bond<dim>& bond, double stretch, const materials::BondLaw& law,
-                                          const std::vector<double>& dilatation) const {
-  if (!law.sees_compression()) return stretch;
-  return law.counted_stretch(stretch, 0.5 * (dilatation[bond.first_point] + dilatation[bond.second_point]));
 }
 
 template <int dim>
@@ -257,10 +247,10 @@ std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim
   check_dilatation(strains.dilatation);
   std::vector<double> ratios;
   for_each_stretched(
-      {displacements, strains.eigenstrain}, classes, [&](const materials::BondLaw& law) { return ratio * law.limit(); },
+      displacements, classes, strains.eigenstrain, [&](const materials::BondLaw& law) { return ratio * law.limit(); },
       [&](const Bond<dim>& bond, double stretch, const materials::BondLaw& law) {
         if (bond.first_element >= mesh_.n_owned_elements) return;
-        const double counted = counted_stretch(bond, stretch, law, strains.dilatation);
+        const double counted = law.counted_stretch(stretch, bond.mean_of(strains.dilatation));
         if (law.sees_compression() && counted < ratio * law.limit()) return;
         ratios.push_back(counted / law.limit());
       });
@@ -275,11 +265,12 @@ std::vector<BondId> BondFamilies<dim>::overstretched(const std::vector<Point<dim
   check_dilatation(strains.dilatation);
   std::vector<BondId> found;
   for_each_stretched(
-      {displacements, strains.eigenstrain}, classes,
+      displacements, classes, strains.eigenstrain,
       [&](const materials::BondLaw& law) { return ratio * law.critical_stretch(); },
       [&](const Bond<dim>& bond, double stretch, const materials::BondLaw& law) {
-        const bool is_cut_short = law.sees_compression() && counted_stretch(bond, stretch, law, strains.dilatation) <
-                                                                ratio * law.critical_stretch();
+        const bool is_cut_short =
+            law.sees_compression() &&
+            law.counted_stretch(stretch, bond.mean_of(strains.dilatation)) < ratio * law.critical_stretch();
         if (!is_cut_short) found.push_back(bond.id);
       });
   return found;
@@ -293,7 +284,7 @@ std::vector<SoftenedBond> BondFamilies<dim>::softened(const std::vector<Point<di
   std::vector<SoftenedBond> found;
   if (!softens_) return found;
   for_each_stretched(
-      {displacements, eigenstrain}, classes,
+      displacements, classes, eigenstrain,
       [](const materials::BondLaw& law) { return law.softens() ? -1. : law.limit(); },
       [&](const Bond<dim>& bond, double stretch_now, const materials::BondLaw& law) {
         const auto [accepted, before] = softening_[bond.id];

@@ -77,15 +77,9 @@ void declare_pressure(const input::Section& section, Pressure& one) {
 using Shared = std::map<std::string, std::string>;
 
 void check_direction(const input::Values& displacement, const Shared& rigid, int dimension) {
-  check_size(displacement, "Direction", dimension);
-  const auto* direction = displacement.numbers("Direction");
+  check_direction(displacement, "Direction", dimension);
   const std::string* group = displacement.text("Group");
-  if (direction == nullptr) return;
-  if (std::all_of(direction->begin(), direction->end(), [](double value) { return value == 0.; })) {
-    displacement.mistake("Direction", fmt::format("found {}; allowed is a direction, which has a length",
-                                                  displacement.shown("Direction")));
-  }
-  if (group == nullptr || rigid.count(*group) == 0) return;
+  if (!displacement.given("Direction") || group == nullptr || rigid.count(*group) == 0) return;
   displacement.mistake(
       "Direction",
       fmt::format("found with the rigid group {}; allowed is a \"Component\" of its motion", input::in_quotes(*group)));

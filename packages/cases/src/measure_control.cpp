@@ -22,10 +22,6 @@ void check_unused(const input::Values& measure) {
   }
 }
 
-bool is_zero(const Teuchos::Array<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.; });
-}
-
 }  // namespace
 
 void declare(const input::Section& section, MeasureControl& measure) {
@@ -61,12 +57,8 @@ void check_measure_control(const input::Values& loading, int dimension) {
   for (const char* needed : {"Direction", "Rate"}) {
     if (!measure.given(needed)) measure.mistake(needed, "missing; \"Control\" = \"Measure\" needs it");
   }
-  for (const char* name : {"Point", "Other Point", "Direction"}) check_size(measure, name, dimension);
-  const auto* direction = measure.numbers("Direction");
-  if (direction != nullptr && is_zero(*direction)) {
-    measure.mistake("Direction",
-                    fmt::format("found {}; allowed is a direction, which has a length", measure.shown("Direction")));
-  }
+  for (const char* name : {"Point", "Other Point"}) check_size(measure, name, dimension);
+  check_direction(measure, "Direction", dimension);
   const double* rate = measure.number("Rate");
   if (rate != nullptr && *rate == 0.) {
     measure.mistake("Rate", "found 0; allowed is any other number: nothing else loads the body");

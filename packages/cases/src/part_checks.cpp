@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -244,9 +245,7 @@ class FreeMotions {
   void hold_group(Motions& motions, const discretization::RigidGroup& group, int component) const {
     const auto& nodes = mesh_.node_sets.at(group.node_set);
     const int part = part_at_[nodes[0]];
-    Point<dim> center = Point<dim>::Zero();
-    for (const int node : nodes) center += mesh_.coordinates[node] / static_cast<double>(nodes.size());
-    if (!group.center.empty()) center = Eigen::Map<const Point<dim>>(group.center.data());
+    const Point<dim> center = discretization::center_of(Teuchos::SerialComm<int>(), mesh_, group);
     apply(motions, part, [&](auto& some) {
       if (component < dim) {
         some.hold(place_in_cluster(part), center, Point<dim>::Unit(component));

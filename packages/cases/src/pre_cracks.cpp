@@ -22,11 +22,6 @@ constexpr std::array<ShapeParameter<PreCrackShape>, 5> pre_crack_parameters{{{Pr
                                                                              {PreCrackShape::disc, "Normal"},
                                                                              {PreCrackShape::disc, "Radius"}}};
 
-void check_that_it_has_length(const input::Values& section, const std::string& name, const Numbers& direction) {
-  if (std::any_of(direction.begin(), direction.end(), [](double value) { return value != 0.; })) return;
-  section.mistake(name, fmt::format("found {}; allowed is a direction, which has a length", section.shown(name)));
-}
-
 /// All corners of a polygon lie in one plane and turn the same way. @param corners no two in a row are the same
 bool is_flat_and_convex(const std::vector<base::Point<3>>& corners) {
   constexpr double tolerance = 1e-6;  // of the polygon's size
@@ -94,8 +89,8 @@ void declare(const input::Section& section, PreCrack& crack) {
 void check_pre_crack(const input::Values& crack, int dimension) {
   check_shape(crack, "a pre-crack", pre_crack_shapes, pre_crack_parameters, dimension);
   if (const Numbers* points = crack.numbers("Points")) check_points(crack, *points, dimension);
-  for (const char* name : {"Center", "Normal"}) check_size(crack, name, dimension);
-  if (const Numbers* normal = crack.numbers("Normal")) check_that_it_has_length(crack, "Normal", *normal);
+  check_size(crack, "Center", dimension);
+  check_direction(crack, "Normal", dimension);
 }
 
 }  // namespace perimorph::cases

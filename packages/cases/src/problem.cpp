@@ -100,14 +100,12 @@ std::optional<model::MeasureControl<dim>> make_control(const Loading& loading) {
 void check_energy(const std::string& path, const Fracture& fracture, double least_energy, double length) {
   const double strength = *fracture.tensile_strength, energy = *fracture.fracture_energy;
   if (energy > least_energy) return;
-  throw base::UserError(
-      fmt::format("{}/Fracture Energy: found {:.4g}; with \"Tensile Strength\" = {:.4g} and a characteristic length of "
-                  "{:.4g} allowed is "
-                  "above {:.4g}, or a length below {:.4g} with a horizon in proportion, or a strength below {:.4g}: "
-                  "bonds would have to "
-                  "be more brittle than brittle ones",
-                  path, energy, strength, length, least_energy, length * energy / least_energy,
-                  strength * std::sqrt(energy / least_energy)));
+  throw base::UserError(fmt::format(
+      "{}/Fracture Energy: found {:.4g}; with \"Tensile Strength\" = {:.4g} and a characteristic length of "
+      "{:.4g} allowed is above {:.4g}, or a length below {:.4g} with a horizon in proportion, or a strength "
+      "below {:.4g}: bonds would have to be more brittle than brittle ones",
+      path, energy, strength, length, least_energy, length * energy / least_energy,
+      strength * std::sqrt(energy / least_energy)));
 }
 
 /// What is given, and what follows by integrals; of bonds between two materials, or within one.
@@ -179,8 +177,7 @@ void check_numbers(const Case& input, const materials::Material<dim>& material, 
   if (is_sound(tau0) && (!solid.breaks() || (is_sound(stretch) && is_sound(energy)))) return;
   throw base::UserError(
       fmt::format("{}: /Material and /Peridynamics give tau0 = {:.4g}, s_crit = {:.4g}, G_c = {:.4g}, with E = {:.4g}, "
-                  "horizon = {:.4g}, "
-                  "l = {:.4g}; allowed are numbers that give finite ones above 0",
+                  "horizon = {:.4g}, l = {:.4g}; allowed are numbers that give finite ones above 0",
                   input.file, tau0, stretch, energy, solid.youngs_modulus, horizon, length));
 }
 
@@ -242,8 +239,7 @@ void check_compressive_strengths(const Case& input, const model::Problem<dim>& p
     if (!material.compressive_strength || *material.compressive_strength >= least) continue;
     throw base::UserError(
         fmt::format("{}: {}/Compressive Strength: found {:.6g}; allowed is {:.6g} or more, which a solid whose bonds "
-                    "break by their "
-                    "stretch alone bears (E s_crit / nu), or none",
+                    "break by their stretch alone bears (E s_crit / nu), or none",
                     input.file, path_of(solids[m], m), *material.compressive_strength, least));
   }
 }

@@ -48,4 +48,7 @@ void check_shape(const input::Values& section, const char* what, const Choices& 
 /// A point or vector has one number per dimension. Local.
 void check_size(const input::Values& section, const std::string& name, int dimension);
 
+/// So has a direction, and a length. Local.
+void check_direction(const input::Values& section, const std::string& name, int dimension);
+
 }  // namespace perimorph::cases

@@ -29,14 +29,9 @@ bool has_profile(const Values& temperature) {
 
 void check_profile(const Values& temperature, int dimension) {
   if (!has_profile(temperature)) return;
-  check_size(temperature, "Direction", dimension);
-  const auto *direction = temperature.numbers("Direction"), *positions = temperature.numbers("Positions"),
-             *factors = temperature.numbers("Factors");
-  if (direction == nullptr || positions == nullptr || factors == nullptr) return;
-  if (std::all_of(direction->begin(), direction->end(), [](double c) { return c == 0.; })) {
-    temperature.mistake(
-        "Direction", fmt::format("found {}; allowed is a direction that is not zero", temperature.shown("Direction")));
-  }
+  check_direction(temperature, "Direction", dimension);
+  const auto *positions = temperature.numbers("Positions"), *factors = temperature.numbers("Factors");
+  if (positions == nullptr || factors == nullptr) return;
   const auto is_not_above = [](double one, double next) { return next <= one; };
   if (positions->size() < 2 ||
       std::adjacent_find(positions->begin(), positions->end(), is_not_above) != positions->end()) {

@@ -64,20 +64,6 @@ std::vector<int> common_nodes(const mesh::Mesh<dim>& mesh, const std::string& on
   return common;
 }
 
-/// Of the group's nodes, each counted by its owner. Collective.
-template <int dim>
-Point<dim> mean_place(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const RigidGroup& group) {
-  std::vector<double> sums(dim + 1, 0.);
-  for (const int node : nodes_of(mesh, group.node_set)) {
-    if (node >= mesh.n_owned_nodes) continue;
-    for (int c = 0; c < dim; ++c) sums[c] += mesh.coordinates[node][c];
-    sums[dim] += 1.;
-  }
-  base::sum(comm, sums);
-  if (sums[dim] == 0.) throw base::UserError(fmt::format("the rigid group \"{}\" has no nodes", group.name));
-  return Eigen::Map<const Point<dim>>(sums.data()) / sums[dim];
-}
-
 /// By its place in PrescribedComponent's order.
 template <int dim>
 int motion_of(int component) {
@@ -86,6 +72,21 @@ int motion_of(int component) {
 }
 
 }  // namespace
+
+template <int dim>
+Point<dim> center_of(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const RigidGroup& group) {
+  PERIMORPH_ASSERT(group.center.empty() || group.center.size() == dim, "a center of {} numbers", group.center.size());
+  std::vector<double> sums(dim + 1, 0.);
+  for (const int node : nodes_of(mesh, group.node_set)) {
+    if (node >= mesh.n_owned_nodes) continue;
+    for (int c = 0; c < dim; ++c) sums[c] += mesh.coordinates[node][c];
+    sums[dim] += 1.;
+  }
+  base::sum(comm, sums);
+  if (sums[dim] == 0.) throw base::UserError(fmt::format("the rigid group \"{}\" has no nodes", group.name));
+  if (!group.center.empty()) return Eigen::Map<const Point<dim>>(group.center.data());
+  return Eigen::Map<const Point<dim>>(sums.data()) / sums[dim];
+}
 
 template <int dim>
 std::vector<GroupConflict> group_conflicts(const mesh::Mesh<dim>& mesh, const std::vector<RigidGroup>& groups,
@@ -117,10 +118,8 @@ std::vector<GroupMotion<dim>> group_motions(const base::Comm& comm, const mesh::
   });
   std::vector<GroupMotion<dim>> motions;
   for (const auto& group : groups) {
-    PERIMORPH_ASSERT(group.center.empty() || group.center.size() == dim, "a center of {} numbers", group.center.size());
-    Point<dim> center = mean_place(comm, mesh, group);
-    if (!group.center.empty()) center = Eigen::Map<const Point<dim>>(group.center.data());
-    motions.push_back({group.name, group.shared_component, nodes_of(mesh, group.node_set), {}});
+    const Point<dim> center = center_of(comm, mesh, group);
+    motions.push_back({group.shared_component, nodes_of(mesh, group.node_set), {}});
     for (const int node : motions.back().nodes) motions.back().arms.push_back(mesh.coordinates[node] - center);
     for (const auto& condition : conditions) {
       if (moved_by(condition, groups) != &group) continue;
@@ -131,6 +130,7 @@ std::vector<GroupMotion<dim>> group_motions(const base::Comm& comm, const mesh::
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                            \
+  template Point<dim> center_of(const base::Comm&, const mesh::Mesh<dim>&, const RigidGroup&);                \
   template std::vector<GroupConflict> group_conflicts(const mesh::Mesh<dim>&, const std::vector<RigidGroup>&, \
                                                       const std::vector<PrescribedComponent>&);               \
   template std::vector<GroupMotion<dim>> group_motions(const base::Comm&, const mesh::Mesh<dim>&,             \

@@ -29,14 +29,13 @@ std::optional<double> uncounted_share(const Material<dim>& material) {
 template <int dim>
 Material<dim> elastic_material(ElasticModel model, double youngs_modulus, double poissons_ratio,
                                double characteristic_length, double horizon) {
-  return {"",
-          elasticity_tensor<dim>(model, youngs_modulus, poissons_ratio),
-          dilatational_ratio(model, poissons_ratio),
-          calibrate<dim>(model, youngs_modulus, poissons_ratio, characteristic_length, horizon),
-          {},
-          0.,
-          youngs_modulus,
-          poissons_ratio};
+  Material<dim> material{};
+  material.e0 = elasticity_tensor<dim>(model, youngs_modulus, poissons_ratio);
+  material.dilatational_ratio = dilatational_ratio(model, poissons_ratio);
+  material.micromodulus = calibrate<dim>(model, youngs_modulus, poissons_ratio, characteristic_length, horizon);
+  material.youngs_modulus = youngs_modulus;
+  material.poissons_ratio = poissons_ratio;
+  return material;
 }
 
 template <int dim>

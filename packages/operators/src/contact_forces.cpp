@@ -67,7 +67,7 @@ Point<dim> ContactForces<dim>::opening(const Contact& contact, base::ConstField 
 template <int dim>
 Point<dim> ContactForces<dim>::relative_displacement(const Contact& contact, base::ConstField u) const {
   if (model_.eigenstrain == nullptr) return opening(contact, u);
-  return opening(contact, u) - mean_of_ends(model_.eigenstrain->at_points(), contact.bond) * contact.bond.xi;
+  return opening(contact, u) - contact.bond.mean_of(model_.eigenstrain->at_points()) * contact.bond.xi;
 }
 
 template <int dim>
@@ -144,7 +144,7 @@ void ContactForces<dim>::add_load_derivative(base::Field force) const {
   if (model_.eigenstrain == nullptr) return;
   const auto rates = model_.eigenstrain->rates(0.);
   for (const auto& contact : contacts_) {
-    hold(contact, contact.in_tangent * (-mean_of_ends(rates, contact.bond) * contact.bond.xi), force);
+    hold(contact, contact.in_tangent * (-contact.bond.mean_of(rates) * contact.bond.xi), force);
   }
 }
 

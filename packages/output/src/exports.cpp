@@ -92,19 +92,14 @@ std::vector<BondRecord> own_bonds(const Body<dim>& body) {
   const auto model = body.model();
   const auto& [u, dilatational_stretch, contacts, eigenstrain] = body.system().at_points();
   std::vector<BondRecord> records;
-  for (int p = 0; p < model.bonds.n_pairs(); ++p) {
-    const auto [first, second] = model.bonds.pair(p);
-    if (first >= body.mesh().n_owned_elements) continue;
-    for (auto b = model.bonds.first_bond(p); b < model.bonds.first_bond(p + 1); ++b) {
-      const int i = model.bonds.first_end(b), j = model.bonds.second_end(b);
-      const int x = model.points.first(first) + i, y = model.points.first(second) + j;
-      const Point<dim> xi = model.points.position(y) - model.points.position(x);
-      const double free = eigenstrain.empty() ? 0. : 0.5 * (eigenstrain[x] + eigenstrain[y]);
-      records.push_back({model.points.global_id(first, i), model.points.global_id(second, j),
-                         (xi + u[y] - u[x]).norm() / xi.norm() - 1. - free,
-                         static_cast<signed char>(model.bonds.broken(b))});
-    }
-  }
+  model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
+    if (bond.first_element >= body.mesh().n_owned_elements) return;
+    const double length = (bond.xi + u[bond.second_point] - u[bond.first_point]).norm();
+    records.push_back({model.points.global_id(bond.first_element, bond.first_end),
+                       model.points.global_id(bond.second_element, bond.second_end),
+                       length / bond.xi.norm() - 1. - bond.mean_of(eigenstrain),
+                       static_cast<signed char>(bond.is_broken)});
+  });
   return records;
 }
 

@@ -1,5 +1,6 @@
 #include "perimorph/output/reactions.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -34,24 +35,20 @@ Point<3> in_space(const Point<dim>& x) {
   return result;
 }
 
-Point<3> cross(const Point<3>& a, const Point<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// What the nodes of a group sum up to, places and moments about the origin.
 struct Sums {
-  Eigen::Vector3d force = Point<3>::Zero(), moment = Point<3>::Zero();
-  Eigen::Vector3d place = Point<3>::Zero(), displacement = Point<3>::Zero();
-  Eigen::Vector3d turned = Point<3>::Zero();         ///< place x displacement
+  Point<3> force = Point<3>::Zero(), moment = Point<3>::Zero();
+  Point<3> place = Point<3>::Zero(), displacement = Point<3>::Zero();
+  Point<3> turned = Point<3>::Zero();                ///< place x displacement
   Eigen::Matrix3d places = Eigen::Matrix3d::Zero();  ///< place place^T
   double n_nodes = 0.;
 
   void add(const Point<3>& x, const Point<3>& u, const Point<3>& f) {
     force += f;
-    moment += cross(x, f);
+    moment += x.cross(f);
     place += x;
     displacement += u;
-    turned += cross(x, u);
+    turned += x.cross(u);
     places += x * x.transpose();
     n_nodes += 1.;
   }
@@ -71,7 +68,7 @@ struct Sums {
     const Point<3> center = mean(place);
     const Eigen::Matrix3d spread = places - n_nodes * center * center.transpose();
     const Eigen::Matrix3d inertia = spread.trace() * Eigen::Matrix3d::Identity() - spread;
-    return inertia.fullPivLu().solve(turned - cross(center, displacement));
+    return inertia.fullPivLu().solve(turned - center.cross(displacement));
   }
 };
 
@@ -121,10 +118,9 @@ void measure(const base::Comm& comm, int increment, const fracture::Body<dim>& b
       reaction.force = sums.force[reaction.component];
       reaction.displacement = sums.mean(sums.displacement)[reaction.component];
     } else {
-      const auto& given = rigid_body(body.problem().rigid_groups, reaction.group)->center;
-      const Point<3> center =
-          given.empty() ? sums.mean(sums.place) : in_space<dim>(Eigen::Map<const Point<dim>>(given.data()));
-      reaction.force = (sums.moment - cross(center, sums.force))[reaction.component - first_rotation];
+      const auto& group = *rigid_body(body.problem().rigid_groups, reaction.group);
+      const Point<3> center = in_space<dim>(discretization::center_of(comm, body.mesh(), group));
+      reaction.force = (sums.moment - center.cross(sums.force))[reaction.component - first_rotation];
       reaction.displacement = sums.rotation()[reaction.component - first_rotation];
     }
     if (std::abs(reaction.force) <= std::abs(reaction.peak)) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "perimorph/base/algebra.hpp"
 
@@ -18,6 +19,11 @@ struct Bond {
   int first_point, second_point;      ///< the same points, as local material points
   base::Point<dim> xi;                ///< from the first point to the second in the undeformed body, [length]
   bool is_broken;
+
+  /// Mean of numbers at points, (n_points), over both ends; of none it is 0.
+  double mean_of(const std::vector<double>& at_points) const {
+    return at_points.empty() ? 0. : 0.5 * (at_points[first_point] + at_points[second_point]);
+  }
 };
 
 }  // namespace perimorph::bonds

@@ -198,16 +198,10 @@ class BondFamilies {
     return ends_[b];
   }
   double stiffness_on_the_fly(const Bond<dim>& bond) const;
-  /// What is known at points, such as where they go.
-  struct AtPoints {
-    const std::vector<base::Point<dim>>& displacements;
-    const std::vector<double>& eigenstrain;
-  };
   template <class Threshold, class Visit>
-  void for_each_stretched(const AtPoints& at_points, const std::vector<morphing::ElementClass>& classes,
+  void for_each_stretched(const std::vector<base::Point<dim>>& displacements,
+                          const std::vector<morphing::ElementClass>& classes, const std::vector<double>& eigenstrain,
                           Threshold threshold, Visit visit) const;
-  double counted_stretch(const Bond<dim>& bond, double stretch, const materials::BondLaw& law,
-                         const std::vector<double>& dilatation) const;
   void check_dilatation(const std::vector<double>& dilatation) const;
   void lose(const Bond<dim>& bond, double share);
   void check_arguments() const;

@@ -18,6 +18,10 @@ struct RigidGroup {
   std::vector<double> center = {};  ///< about which it turns, (dim), [length]; empty: the mean of its nodes
 };
 
+/// The point about which a group turns, [length]. Collective. @throws UserError on all ranks if it has no nodes
+template <int dim>
+base::Point<dim> center_of(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const RigidGroup& group);
+
 /// The group that a condition moves as a whole; null if it prescribes nodes. Local.
 const RigidGroup* moved_by(const PrescribedComponent& condition, const std::vector<RigidGroup>& groups);
 
@@ -36,7 +40,6 @@ struct GroupMotion {
     Ramp<double> value;  ///< [length], or [rad]
   };
 
-  std::string name;
   int shared_component;                ///< -1: none
   std::vector<int> nodes;              ///< those on this rank, of the reference mesh, ascending
   std::vector<base::Point<dim>> arms;  ///< from the center to them, [length]

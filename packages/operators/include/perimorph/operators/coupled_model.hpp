@@ -43,12 +43,6 @@ struct ContactSpring {
   double slid_energy;     ///< what 1/2 pull . eta is more than that, where faces have slid, [energy]
 };
 
-/// [-], of numbers at points.
-template <int dim>
-double mean_of_ends(const std::vector<double>& at_points, const bonds::Bond<dim>& bond) {
-  return 0.5 * (at_points[bond.first_point] + at_points[bond.second_point]);
-}
-
 /// What bonds see of a displacement, at material points.
 template <int dim>
 struct PointFields {
@@ -62,7 +56,7 @@ struct PointFields {
   /// eta of a bond, u(p) - u(x) without what the mean eigenstrain of both ends makes of xi, [length].
   base::Point<dim> relative_displacement(const bonds::Bond<dim>& bond) const {
     const base::Point<dim> eta = displacement[bond.second_point] - displacement[bond.first_point];
-    return eigenstrain.empty() ? eta : base::Point<dim>(eta - mean_of_ends(eigenstrain, bond) * bond.xi);
+    return eigenstrain.empty() ? eta : base::Point<dim>(eta - bond.mean_of(eigenstrain) * bond.xi);
   }
 };
 

@@ -145,8 +145,7 @@ class CoupledSystem : public NonlinearSystem {
   std::vector<double> internal_, loads_;
   bool has_forces_ = false;
   double load_factor_ = 0.;
-  std::vector<double>
-      held_expansion_;  ///< forces that it takes to hold the body still against the eigenstrain; or empty
+  std::vector<double> held_expansion_;  ///< forces that hold the body still against the eigenstrain; or empty
 
   void make_terms(const Supports<dim>& supports);
   void make_matrices(const Supports<dim>& supports);

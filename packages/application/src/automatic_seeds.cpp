@@ -1,4 +1,4 @@
-#include "perimorph/fracture/automatic_seeds.hpp"
+#include "perimorph/application/automatic_seeds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,12 @@
 #include "perimorph/base/point_tree.hpp"
 #include "perimorph/operators/fields.hpp"
 
-namespace perimorph::fracture {
+namespace perimorph::application {
 
 using base::Point;
+using fracture::Body;
+using model::NumericalOptions;
+using model::Problem;
 
 namespace {
 
@@ -127,7 +130,7 @@ void place_automatic_seeds(const Teuchos::RCP<const base::Comm>& comm, const mes
   Body<dim> body(comm, mesh, elastic, accurate, profile);
   body.prescribe(problem.prescribed_in(most_loaded(problem, last_increment)));
   body.update_topology();
-  body.solve(Accuracy::accepted);
+  body.solve(fracture::Accuracy::accepted);
   for (const auto& seed : problem.automatic_seeds) {
     const auto places = most_stretched(*comm, body, problem, seed);
     if (places.empty()) {
@@ -152,4 +155,4 @@ template std::vector<StretchedPlace<3>> most_stretched<3>(const base::Comm&, con
 template void place_automatic_seeds<3>(const Teuchos::RCP<const base::Comm>&, const mesh::Mesh<3>&,
                                        const NumericalOptions&, int, Problem<3>&, base::Profile&, const base::Log&);
 
-}  // namespace perimorph::fracture
+}  // namespace perimorph::application
