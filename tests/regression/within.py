@@ -51,11 +51,19 @@ class Within(WholeRun):
                 process = int(pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()[0])
             while not self.catches(process, getattr(signal, name)):  # one that goes on has a history before it begins
                 time.sleep(0.005)
-            time.sleep(0.4)  # of some seconds
+            end = self.time_used(process) + 0.4  # of some seconds
+            while self.time_used(process) < end:
+                time.sleep(0.005)
         os.kill(process, getattr(signal, name))
         message = run.stderr.read()
         self.assertEqual(run.wait(timeout=60), -signal.SIGKILL if name == "SIGKILL" else 3, message)
         return message
+
+    @staticmethod
+    def time_used(process):
+        """[s] by the processor, however many others wait for it."""
+        numbers = pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(numbers[11]) + int(numbers[12])) / os.sysconf("SC_CLK_TCK")
 
     @staticmethod
     def catches(process, number):
