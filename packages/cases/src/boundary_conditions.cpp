@@ -76,7 +76,7 @@ void declare_pressure(const input::Section& section, Pressure& one) {
 /// What the rigid groups share, by their group of the mesh.
 using Shared = std::map<std::string, std::string>;
 
-void check_direction(const input::Values& displacement, const Shared& rigid, int dimension) {
+void check_along(const input::Values& displacement, const Shared& rigid, int dimension) {
   check_direction(displacement, "Direction", dimension);
   const std::string* group = displacement.text("Group");
   if (!displacement.given("Direction") || group == nullptr || rigid.count(*group) == 0) return;
@@ -122,7 +122,7 @@ void check_displacements(const input::Values& conditions, int dimension) {
     const std::string *group = one.text("Group"), *component = one.text("Component");
     check_choice(one, "Component", components, dimension);
     check_component(one, rigid);
-    check_direction(one, rigid, dimension);
+    check_along(one, rigid, dimension);
     if (!one.given("Component") && !one.given("Direction")) {
       one.mistake("Component", "missing; needed is either it or a \"Direction\"");
     }
