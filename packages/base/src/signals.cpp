@@ -49,7 +49,7 @@ Signals::~Signals() {
 
 Signals::Requests Signals::look(const Comm& comm) {
   const bool is_asked = checkpoint_asked != 0;
-  checkpoint_asked = 0;
+  if (is_asked) checkpoint_asked = 0;  // otherwise one that comes just now would be lost
   const GlobalId stop = max(comm, static_cast<GlobalId>(stop_signal));
   const GlobalId asked = max(comm, static_cast<GlobalId>(is_asked));
   ends_ = ends_ || stop != 0;
