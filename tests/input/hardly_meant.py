@@ -376,6 +376,25 @@ class Supports(Checked):
         self.assert_warned(f"warning: {self.case}: /Boundary Conditions/Displacements/right x: holds a straight side of the body across it, "
                            "inside a peridynamic zone (from (12, 2) to (12, 10)). If it is a plane of symmetry, the bonds across it are missing")
 
+    def test_as_a_plane_of_symmetry_it_is_none(self):
+        self.write_case({DISPLACEMENTS: held("lower", "y") | moved("upper", "y"), f"{TIP}/Center": [10, 6],
+                         "Boundary Conditions/Symmetry Planes/middle/Group": "right"})
+        self.assert_not_warned("symmetry")
+
+    def test_what_is_no_plane_of_symmetry(self):
+        planes = "Boundary Conditions/Symmetry Planes"
+        for changes, message in [
+                ({f"{planes}/middle/Group": "right", DISPLACEMENTS: held("right", "x")},
+                 "/Boundary Conditions/Symmetry Planes/middle: has the node at (12, 0), and others perhaps, in common with "
+                 "/Boundary Conditions/Displacements/right x, which moves it across the plane"),
+                ({f"{planes}/middle/Group": "right", f"{planes}/again/Group": "right"}, "again: is parallel to middle; allowed is one across each axis"),
+                ({f"{planes}/middle/Group": "right", "Peridynamics/Crack Faces": "Contact"},
+                 '/Peridynamics/Crack Faces: found "Contact"; with /Boundary Conditions/Symmetry Planes allowed is "Free"'),
+                ({f"{planes}/middle/Group": "lower"}, 'has no group of sides called "lower"')]:
+            with self.subTest(message=message):
+                self.write_case({DISPLACEMENTS: held("lower", "y") | moved("upper", "y")} | changes)
+                self.assert_refused(message)
+
     def test_one_away_from_zones_and_a_clamp_are_none(self):
         self.write_case(self.SYMMETRY | {f"{TIP}/Center": [5, 6]})
         self.assert_not_warned("symmetry")

@@ -201,6 +201,8 @@ class Restart(InThreeDimensions):
             "Boundary Conditions/Rigid Groups/grip/Group": "right",
             "Boundary Conditions/Displacements/no turn": {"Group": "right", "Component": "rotation y"},
             "Boundary Conditions/Displacements/pull up": {"Group": "upper", "Direction": [0.2, 1.0, 0.0], "Rate": 0.05}},
+        "symmetry": {"Boundary Conditions/Symmetry Planes/end/Group": "right", "Boundary Conditions/Displacements/hold x": None,
+                     "Morphing/Seeds/tip/Outer Radius": 7.0},
     }
 
     def test_it_ends_with_the_same_bits(self):

@@ -1,4 +1,4 @@
-"""--restart in the midst of load programmes, measures and rigid groups.
+"""--restart in the midst of load programmes, measures, rigid groups and planes of symmetry.
 
     restart_loads.py PERIMORPH MPIEXEC
 """
@@ -10,7 +10,7 @@ import unittest
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import EVERY, INCREMENTS, GrowingCrack, changed, plate_mesh, settings
+from fixture import EVERY, INCREMENTS, GrowingCrack, changed, half_plate_mesh, plate_mesh, settings
 
 
 class PathFollowing(GrowingCrack):
@@ -151,6 +151,37 @@ class Constraints(GrowingCrack):
                 along = (0.3 * last["displacement_upper_x"] + last["displacement_upper_y"]) / 1.09**0.5
                 self.assertAlmostEqual(along, 0.06 * INCREMENTS, places=9)
                 self.assert_continues(whole, stop, *EVERY, ranks=ranks)
+
+
+class SymmetryPlanes(GrowingCrack):
+    """The upper half of the plate: the crack runs along the plane of symmetry."""
+
+    MESH = half_plate_mesh()
+    CASE = changed(GrowingCrack.CASE, {
+        "Pre-Cracks": None, "Boundary Conditions/Displacements/pull down": None, "Boundary Conditions/Displacements/hold y": None,
+        "Boundary Conditions/Symmetry Planes/middle/Group": "ligament"})
+    KINDS = [[], settings("Material/Poisson's Ratio=0.2"), settings("Solver/Operator=CRS"), settings("Solver/Operator=On-the-Fly")]
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for (ranks, stop), options in zip([(1, 13), (2, 12), (4, 14), (2, 14)], self.KINDS):
+            with self.subTest(ranks=ranks, options=options):
+                self.run_until(INCREMENTS, *EVERY, *options, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 50)
+                self.assert_continues(whole, stop, *EVERY, *options, ranks=ranks)
+
+    def test_on_any_number_of_ranks_and_with_any_operator_the_same_bonds_break(self):
+        self.run_until(INCREMENTS)
+        alone = self.rows()
+        self.assertEqual(alone[0]["broken_bonds"], "0")
+        self.assertGreater(int(alone[-1]["broken_bonds"]), 50)
+        for ranks, options in [(2, []), (4, []), (2, settings("Solver/Operator=CRS")), (3, settings("Solver/Operator=On-the-Fly"))]:
+            with self.subTest(ranks=ranks, options=options):
+                self.run_until(INCREMENTS, *options, ranks=ranks)
+                for row, other in zip(alone, self.rows(), strict=True):
+                    for name in ["broken_bonds", "damaged_elements", "dgfe_elements"]:
+                        self.assertEqual(row[name], other[name])
+                    self.assertAlmostEqual(float(row["elastic_energy"]) / float(other["elastic_energy"]), 1, places=5)
 
 
 class Released(GrowingCrack):

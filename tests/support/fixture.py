@@ -102,6 +102,18 @@ def plate_mesh(columns=N, has_stiff=False, clamp=None):
     return msh(names, nodes, elements)
 
 
+def half_plate_mesh():
+    """The upper half of that plate, with its lower edge beside the slit as "ligament"."""
+    node = lambda i, j: j * (N + 1) + i + 1
+    rows = N // 2
+    nodes = [(node(i, j), i, N - rows + j, 0) for j in range(rows + 1) for i in range(N + 1)]
+    elements = [(15, 1, [node(0, rows)])]
+    elements += [(1, 2, [node(i, 0), node(i + 1, 0)]) for i in range(5, N)]
+    elements += [(1, 3, [node(N, j), node(N, j + 1)]) for j in range(rows)]
+    elements += [(3, 4, [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]) for j in range(rows) for i in range(N)]
+    return msh(['0 1 "upper"', '1 2 "ligament"', '1 3 "right"', '2 4 "body"'], nodes, elements)
+
+
 def text_of(variable):
     """The names that a variable of characters holds."""
     return [bytes(name).decode() for name in netCDF4.chartostring(variable[:], encoding="bytes")]

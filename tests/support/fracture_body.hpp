@@ -7,6 +7,7 @@
 
 #include "perimorph/fracture/adaptive_loop.hpp"
 #include "perimorph/mesh/distribute.hpp"
+#include "perimorph/mesh/images.hpp"
 #include "perimorph/model/numerical_options.hpp"
 #include "perimorph/model/problem.hpp"
 #include "support/meshes.hpp"
@@ -52,6 +53,7 @@ struct SpecimenIn {
   std::optional<double> compressive_strength = {};  ///< none: that of bonds which break by their stretch alone
   double thermal_expansion = 0.;                    ///< of the body's material, as data sheets give it
   std::vector<discretization::TemperatureChange<dim>> temperature_changes = {};
+  std::vector<std::string> symmetry_planes = {};  ///< groups
 };
 using Specimen = SpecimenIn<2>;
 
@@ -116,6 +118,15 @@ model::NumericalOptions make_options(const SpecimenIn<dim>& specimen) {
 inline constexpr int most = std::numeric_limits<int>::max();
 inline constexpr fracture::LoopLimits unlimited = {most, most, most};
 
+template <int dim>
+mesh::Mesh<dim> distribute(const base::Comm& comm, const SpecimenIn<dim>& specimen) {
+  auto mesh = mesh::distribute(comm, specimen.whole, specimen.horizon, specimen.costs);
+  std::vector<mesh::SymmetryPlane> planes;
+  for (const auto& group : specimen.symmetry_planes) planes.push_back(mesh::symmetry_plane(comm, mesh, group));
+  mesh::add_images(mesh, std::move(planes), specimen.horizon);
+  return mesh;
+}
+
 /// A body and all that must outlive it.
 template <int dim>
 struct SpecimenBodyIn {
@@ -126,7 +137,7 @@ struct SpecimenBodyIn {
 
   explicit SpecimenBodyIn(const SpecimenIn<dim>& specimen,
                           const Teuchos::RCP<const base::Comm>& comm = Tpetra::getDefaultComm())
-      : mesh(mesh::distribute(*comm, specimen.whole, specimen.horizon, specimen.costs)),
+      : mesh(distribute(*comm, specimen)),
         problem(make_problem(specimen)),
         body(comm, mesh, problem, make_options(specimen), profile) {}
 

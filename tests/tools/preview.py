@@ -153,6 +153,13 @@ class WhatTheProgramSays(Preview):
         directions = [(tip - tail) / numpy.linalg.norm(tip - tail) for tail, tip in drawn.arrows(MOVED)]
         self.assertTrue(any(numpy.allclose(direction, [0.6, 0.8], atol=1e-9) for direction in directions))
 
+    def test_planes_of_symmetry(self):
+        data = self.data({"Boundary Conditions/Symmetry Planes/middle/Group": "right",
+                          "Boundary Conditions/Displacements/hold x": None})
+        rows = {row[0]: row[1:3] for row in case_tables.conditions(data)}
+        self.assertEqual(rows["middle (plane of symmetry)"], ["right", "u_x"])
+        self.assertIn("right, a plane of symmetry", "\n".join(Drawn(data).labels()))
+
     def test_body_materials_zones_and_cracks(self):
         data = self.data()
         self.assertEqual([corner.tolist() for corner in data.box], [[0, 0], [N, N]])

@@ -122,6 +122,7 @@ class CaseData:
         self.conditions = [Condition(kind, name, entry, self.n_dimensions)
                            for kind, entries in self.table["Conditions"].items() for name, entry in entries.items()]
         self.follows_measure = bool(self.table["Measure"])
+        self.mirrors = {entry["Group"] for entry in self.table["Symmetry Planes"].values()}
         self.rigid = {entry["Group"]: entry["Shared"] for entry in self.table["Rigid Groups"].values()}
 
     @property

@@ -257,7 +257,9 @@ def value_lines(data, conditions, stage):
 
 
 def group_text(data, group):
-    """Its name, and what its nodes share."""
+    """Its name, what its nodes share, and whether the body goes on beyond it."""
+    if group in data.mirrors:
+        return f"{escaped(group)}, a plane of symmetry"
     shared = data.rigid.get(group)
     if shared is None:
         return escaped(group)

@@ -113,9 +113,15 @@ class Conditions {
   ParameterList& list_;
 };
 
-void put_conditions(const cases::Case& input, ParameterList& list) {
+template <int dim>
+void put_conditions(const cases::Case& input, const mesh::Mesh<dim>& mesh, ParameterList& list) {
   const auto& all = input.boundary_conditions;
   Conditions conditions(input.loading, list);
+  for (std::size_t p = 0; p < all.symmetry_planes.size(); ++p) {  // nothing moves across them
+    auto& one = conditions.put("Displacements", all.symmetry_planes[p].name + " (plane of symmetry)", {0.}, {0.});
+    one.set("Group", all.symmetry_planes[p].group);
+    one.set("Component", mesh.symmetry_planes[p].axis);
+  }
   for (const auto& d : cases::normalized(all.displacements)) {
     auto& one = conditions.put("Displacements", d.name, {d.value.rate}, {d.value.constant});
     one.set("Group", d.node_set);
@@ -249,8 +255,11 @@ ParameterList table_of(const cases::Case& input, const model::Problem<dim>& prob
   put_zones(problem.seeds, table.sublist("Zones"));
   put_pre_cracks<dim>(input.pre_cracks, table.sublist("Pre-Cracks"));
   put_stages(stages_of(input.loading), table.sublist("Stages"));
-  put_conditions(input, table.sublist("Conditions"));
+  put_conditions(input, mesh, table.sublist("Conditions"));
   put_measure(input.loading, table.sublist("Measure"));
+  auto& planes = table.sublist("Symmetry Planes");
+  for (const auto& plane : input.boundary_conditions.symmetry_planes)
+    planes.sublist(plane.name).set("Group", plane.group);
   put_rigid_groups(input.boundary_conditions.rigid_groups, table.sublist("Rigid Groups"));
   put_probes(input.output.probes, table.sublist("Probes"));
   return table;

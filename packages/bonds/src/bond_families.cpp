@@ -249,7 +249,7 @@ std::vector<double> BondFamilies<dim>::overstretches(const std::vector<Point<dim
   for_each_stretched(
       displacements, classes, strains.eigenstrain, [&](const materials::BondLaw& law) { return ratio * law.limit(); },
       [&](const Bond<dim>& bond, double stretch, const materials::BondLaw& law) {
-        if (bond.first_element >= mesh_.n_owned_elements) return;
+        if (!counts_here(bond)) return;
         const double counted = law.counted_stretch(stretch, bond.mean_of(strains.dilatation));
         if (law.sees_compression() && counted < ratio * law.limit()) return;
         ratios.push_back(counted / law.limit());

@@ -55,6 +55,13 @@ void declare_rigid_group(const input::Section& section, RigidGroup& one) {
                    "nodes.");
 }
 
+void declare_symmetry_plane(const input::Section& section, SymmetryPlane& one) {
+  using namespace input;
+  section.required("Group", one.group, "left", text("the name of a group"),
+                   "A physical group of the mesh: all of the plane that is in the body. What of it is left out is a "
+                   "free surface, such as a crack along the plane.");
+}
+
 void declare_traction(const input::Section& section, Traction& one) {
   using namespace input;
   const auto vector = numbers("{x, y} or {x, y, z}");
@@ -165,6 +172,12 @@ void declare(const input::Section& section, BoundaryConditions& conditions) {
                   "Groups that move as one, each a list with a name of your choice. What displacements do not "
                   "prescribe of their motion is free: it follows from the forces on them.",
                   "One group.");
+  section.entries("Symmetry Planes", conditions.symmetry_planes, declare_symmetry_plane,
+                  "Planes across an axis, each a list with a name of your choice, beyond which the body goes on as its "
+                  "mirror image: a half, a quarter or an eighth of it is computed, bonds across the planes included. "
+                  "Nothing moves across them, but where a crack runs on them. Forces, energies and bonds are those of "
+                  "the part that is computed.",
+                  "One plane.");
   section.entries("Tractions", conditions.tractions, declare_traction,
                   "Forces on parts of the boundary, each a list with a name of your choice. In increment k the "
                   "traction is Rate * k + Constant.",

@@ -26,6 +26,7 @@ class GroupChecks {
   void run() {
     auto is_held = check_conditions("Displacements", mesh_.node_sets, "nodes");
     is_held.merge(check_conditions("Rigid Groups", mesh_.node_sets, "nodes"));
+    check_conditions("Symmetry Planes", mesh_.side_sets, "sides");
     check_conditions("Tractions", mesh_.side_sets, "sides");
     check_conditions("Pressures", mesh_.side_sets, "sides");
     check_blocks(list_.sublist("Materials"), "/Materials/");

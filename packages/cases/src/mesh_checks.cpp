@@ -1,6 +1,7 @@
 #include "mesh_checks.hpp"
 
 #include <Eigen/Geometry>
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "perimorph/base/text.hpp"
 #include "perimorph/cases/geometry.hpp"
 #include "perimorph/elements/locator.hpp"
+#include "perimorph/mesh/images.hpp"
 #include "place_checks.hpp"
 #include "support_advice.hpp"
 
@@ -53,7 +55,10 @@ class Checks {
     const bool are_supports_known = mistakes_.none_in(displacements_path) && mistakes_.none_in(rigid_groups_path);
     check_contradictions();
     check_group_conflicts();
-    if (are_supports_known) check_free_motions(input_, mesh_, mistakes_);
+    const auto planes = mistakes_.none_in(symmetry_planes_path) ? checked_planes() : std::vector<mesh::SymmetryPlane>();
+    if (are_supports_known && mistakes_.none_in(symmetry_planes_path)) {
+      check_free_motions(input_, mesh_, planes, mistakes_);
+    }
     if (!mistakes_.none_in("/Mesh")) return;  // lengths may be wrong
     check_measured_points();
     check_probes();
@@ -125,6 +130,52 @@ class Checks {
           fmt::format("has the node at ({:.6g}), and others perhaps, in common with the {}, which moves it otherwise; "
                       "allowed are nodes of its own",
                       fmt::join(mesh_.coordinates[node], ", "), other));
+    }
+  }
+
+  // ---- planes of symmetry ----
+
+  std::vector<mesh::SymmetryPlane> checked_planes() {
+    std::vector<mesh::SymmetryPlane> planes;
+    std::map<int, std::string> name_across;
+    for (const auto& [name, group] : input_.boundary_conditions.symmetry_planes) {
+      const auto path = fmt::format("{}/{}", symmetry_planes_path, name);
+      try {
+        planes.push_back(mesh::symmetry_plane(Teuchos::SerialComm<int>(), mesh_, group));
+      } catch (const base::UserError& error) {
+        add(path, error.what());
+        continue;
+      }
+      const auto [first, is_new] = name_across.emplace(planes.back().axis, name);
+      if (!is_new) add(path, fmt::format("is parallel to {}; allowed is one across each axis", first->second));
+      check_that_nothing_moves(path, planes.back());
+    }
+    return planes;
+  }
+
+  /// By other conditions than the plane itself, across it.
+  void check_that_nothing_moves(const std::string& path, const mesh::SymmetryPlane& plane) {
+    const auto& conditions = input_.boundary_conditions;
+    const auto refuse = [&](const std::string& node_set, const std::string& what) {
+      const auto found = mesh_.node_sets.find(node_set);
+      if (found == mesh_.node_sets.end()) return;
+      const auto node = std::find_if(found->second.begin(), found->second.end(), [&](int n) {
+        return std::binary_search(plane.nodes.begin(), plane.nodes.end(), n);
+      });
+      if (node == found->second.end()) return;
+      add(path,
+          fmt::format("has the node at ({:.6g}), and others perhaps, in common with {}, which moves it across the "
+                      "plane; allowed is what leaves it there",
+                      fmt::join(mesh_.coordinates[*node], ", "), what));
+    };
+    for (const auto& one : normalized(conditions.displacements)) {
+      if (moved_by(one, conditions.rigid_groups) != nullptr) continue;
+      const bool is_along = one.direction.empty() && one.component != plane.axis;
+      if (!is_along) refuse(one.node_set, fmt::format("{}/{}", displacements_path, one.name));
+    }
+    for (const auto& one : conditions.rigid_groups) {
+      const bool is_along = one.shared_component >= 0 && one.shared_component != plane.axis;
+      if (!is_along) refuse(one.node_set, fmt::format("{}/{}", rigid_groups_path, one.name));
     }
   }
 

@@ -152,8 +152,9 @@ class FreeMotions {
   }
 
   /// A line for each part, or each cluster, that can move.
-  std::vector<std::string> describe(const Displacements& displacements) const {
-    auto motions = held_by(displacements);
+  std::vector<std::string> describe(const Displacements& displacements,
+                                    const std::vector<mesh::SymmetryPlane>& planes) const {
+    auto motions = held_by(displacements, planes);
     std::vector<std::string> lines;
     for (const auto& [cluster, members] : members_) {
       const auto found = motions.find(cluster);
@@ -206,7 +207,7 @@ class FreeMotions {
     if (const auto found = motions.find(cluster_of_[part]); found != motions.end()) action(found->second);
   }
 
-  Motions held_by(const Displacements& displacements) const {
+  Motions held_by(const Displacements& displacements, const std::vector<mesh::SymmetryPlane>& planes) const {
     Motions motions;
     for (const auto& [cluster, members] : members_) {
       if (members.size() > most_joined) continue;
@@ -220,13 +221,9 @@ class FreeMotions {
         hold_group(motions, *group, d.component);
         continue;
       }
-      const auto direction = discretization::direction_of<dim>(d);
-      for (const int node : mesh_.node_sets.at(d.node_set)) {
-        const int part = part_at_[node];
-        apply(motions, part,
-              [&](auto& some) { some.hold(place_in_cluster(part), mesh_.coordinates[node], direction); });
-      }
+      hold_nodes(motions, mesh_.node_sets.at(d.node_set), discretization::direction_of<dim>(d));
     }
+    for (const auto& plane : planes) hold_nodes(motions, plane.nodes, Point<dim>::Unit(plane.axis));
     for (const auto& group : groups_) join_group(motions, group);
     for (const auto& hinge : hinges_) {
       const int part = part_at_[hinge.node];
@@ -239,6 +236,13 @@ class FreeMotions {
       }
     }
     return motions;
+  }
+
+  void hold_nodes(Motions& motions, const std::vector<int>& nodes, const Point<dim>& direction) const {
+    for (const int node : nodes) {
+      const int part = part_at_[node];
+      apply(motions, part, [&](auto& some) { some.hold(place_in_cluster(part), mesh_.coordinates[node], direction); });
+    }
   }
 
   /// One of its motions is prescribed: that of the part which its first node is in.
@@ -403,9 +407,11 @@ void describe_hinges(const mesh::Mesh<dim>& mesh, std::vector<std::string>& line
 }  // namespace
 
 template <int dim>
-void check_free_motions(const Case& input, const mesh::Mesh<dim>& whole, input::Mistakes& mistakes) {
+void check_free_motions(const Case& input, const mesh::Mesh<dim>& whole, const std::vector<mesh::SymmetryPlane>& planes,
+                        input::Mistakes& mistakes) {
   const auto& conditions = input.boundary_conditions;
-  const auto lines = FreeMotions<dim>(whole, conditions.rigid_groups).describe(normalized(conditions.displacements));
+  const auto lines =
+      FreeMotions<dim>(whole, conditions.rigid_groups).describe(normalized(conditions.displacements), planes);
   const auto add = [&](const std::string& what) {
     mistakes.add(input::line_of(input.lines, displacements_path), displacements_path, what);
   };
@@ -423,8 +429,9 @@ std::vector<std::string> loose_connections(const mesh::Mesh<dim>& whole) {
   return lines;
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                         \
-  template void check_free_motions(const Case&, const mesh::Mesh<dim>&, input::Mistakes&); \
+#define PERIMORPH_INSTANTIATE(dim)                                                                               \
+  template void check_free_motions(const Case&, const mesh::Mesh<dim>&, const std::vector<mesh::SymmetryPlane>&, \
+                                   input::Mistakes&);                                                            \
   template std::vector<std::string> loose_connections(const mesh::Mesh<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -46,8 +46,13 @@ void declare(const input::Section& section, Peridynamics& peridynamics, model::N
       "quarter of an element or less, cracks are then held up half as much; the calibration is as \"Analytic\".");
 }
 
-void check_peridynamics(const input::Values& section) {
+void check_peridynamics(const input::Values& section, bool has_symmetry_planes) {
   const std::string* faces = section.text("Crack Faces");
+  if (faces != nullptr && *faces == "Contact" && has_symmetry_planes) {
+    section.mistake("Crack Faces",
+                    "found \"Contact\"; with /Boundary Conditions/Symmetry Planes allowed is \"Free\": contact across "
+                    "the planes is not computed");
+  }
   const double* friction = section.number("Friction Coefficient");
   if (faces != nullptr && friction != nullptr && *friction > 0. && *faces != "Contact") {
     section.mistake("Friction Coefficient",

@@ -220,6 +220,7 @@ model::Problem<dim> make_problem(const Case& input) {
   problem.crack_faces = input.peridynamics.crack_faces;
   problem.friction = input.peridynamics.friction;
   problem.rigid_groups = input.boundary_conditions.rigid_groups;
+  for (const auto& plane : input.boundary_conditions.symmetry_planes) problem.symmetry_planes.push_back(plane.group);
   for (const auto& seed : input.morphing.seeds) {
     if (seed.shape == SeedShape::automatic) {
       problem.automatic_seeds.push_back({seed.name, seed.inner_radius, seed.outer_radius, seed.share});

@@ -105,7 +105,7 @@ std::vector<std::string> advice_on_supports(const Case& input, const mesh::Mesh<
     lines.push_back(fmt::format(
         "{}/{}: holds a straight side of the body across it, inside a peridynamic zone (from {} to {}). If it "
         "is a plane of symmetry, the bonds across it are missing, and a crack on it runs at a load that is "
-        "a fifth too low: model both halves, or keep cracks and zones a horizon away from it",
+        "a fifth too low: make it one of /Boundary Conditions/Symmetry Planes instead",
         displacements_path, one.name, shown<dim>(stretch.min()), shown<dim>(stretch.max())));
   }
   return lines;

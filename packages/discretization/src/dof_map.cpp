@@ -4,7 +4,9 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "perimorph/base/errors.hpp"
 
@@ -18,20 +20,29 @@ constexpr GlobalId not_numbered = -1;
 
 template <int dim>
 HaloExchange element_exchange(const base::Comm& comm, const mesh::Mesh<dim>& mesh) {
-  return {comm, mesh.element_ids, mesh.element_owners};
+  std::vector<int> sources;
+  for (const auto& image : mesh.images) sources.push_back(image.element);
+  const auto n = mesh.n_real_elements();
+  return {comm,
+          {mesh.element_ids.begin(), mesh.element_ids.begin() + n},
+          {mesh.element_owners.begin(), mesh.element_owners.begin() + n},
+          std::move(sources)};
 }
 
 template <int dim>
 HaloExchange corner_exchange(const base::Comm& comm, const mesh::Mesh<dim>& mesh) {
   std::vector<GlobalId> keys;
-  std::vector<int> owners;
-  for (int e = 0; e < mesh.n_elements(); ++e) {
+  std::vector<int> owners, sources;
+  for (int e = 0; e < mesh.n_real_elements(); ++e) {
     for (int k = 0; k < mesh.n_corners(e); ++k) {
       keys.push_back(mesh.element_ids[e] * mesh::max_corners + k);
       owners.push_back(mesh.node_owners[mesh.corners_of(e)[k]]);
     }
   }
-  return {comm, keys, owners};
+  for (const auto& image : mesh.images) {
+    for (int c = mesh.first_corner[image.element]; c < mesh.first_corner[image.element + 1]; ++c) sources.push_back(c);
+  }
+  return {comm, keys, owners, std::move(sources)};
 }
 
 template <int dim>
@@ -44,6 +55,8 @@ DofMap<dim>::DofMap(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh
   corners.update(global_at_corner);
   add_copies(global_at_corner);
   make_maps(comm);
+  add_images();
+  find_across_planes(discontinuous);
 }
 
 /// Numbers the nodes that this rank owns, reference node by reference node: first the one that its continuous elements
@@ -52,14 +65,15 @@ template <int dim>
 std::vector<GlobalId> DofMap<dim>::number_owned(const base::Comm& comm, const std::vector<char>& discontinuous) {
   // Corners at each owned reference node, by a counting sort.
   std::vector<int> first(mesh_.n_owned_nodes + 1, 0), corner_at, element_at;
-  for (const int node : mesh_.corners) {
-    if (node < mesh_.n_owned_nodes) ++first[node + 1];
+  const int n_corners = mesh_.first_corner[mesh_.n_real_elements()];
+  for (int c = 0; c < n_corners; ++c) {
+    if (mesh_.corners[c] < mesh_.n_owned_nodes) ++first[mesh_.corners[c] + 1];
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
   corner_at.resize(first.back());
   element_at.resize(first.back());
   std::vector<int> next(first.begin(), first.end() - 1);
-  for (int e = 0; e < mesh_.n_elements(); ++e) {
+  for (int e = 0; e < mesh_.n_real_elements(); ++e) {
     for (int c = mesh_.first_corner[e]; c < mesh_.first_corner[e + 1]; ++c) {
       const int node = mesh_.corners[c];
       if (node >= mesh_.n_owned_nodes) continue;
@@ -98,18 +112,66 @@ template <int dim>
 void DofMap<dim>::add_copies(const std::vector<GlobalId>& global_at_corner) {
   // Ascending global ids are grouped by owner, as Tpetra likes its column maps.
   std::vector<GlobalId> copies;
-  for (std::size_t c = 0; c < global_at_corner.size(); ++c) {
+  const int n_corners = mesh_.first_corner[mesh_.n_real_elements()];
+  for (int c = 0; c < n_corners; ++c) {
     if (node_at_corner_[c] < 0) copies.push_back(global_at_corner[c]);
   }
   std::sort(copies.begin(), copies.end());
   copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
   global_nodes_.insert(global_nodes_.end(), copies.begin(), copies.end());
   reference_nodes_.resize(global_nodes_.size());
-  for (std::size_t c = 0; c < global_at_corner.size(); ++c) {
+  for (int c = 0; c < n_corners; ++c) {
     if (node_at_corner_[c] >= 0) continue;
     const auto copy = std::lower_bound(copies.begin(), copies.end(), global_at_corner[c]);
     node_at_corner_[c] = n_owned_nodes_ + static_cast<int>(copy - copies.begin());
     reference_nodes_[node_at_corner_[c]] = mesh_.corners[c];
+  }
+}
+
+/// Of the nodes at the corners of images of elements, each once.
+template <int dim>
+void DofMap<dim>::add_images() {
+  std::map<std::pair<int, unsigned>, int> known;  // by node and negative signs
+  for (std::size_t i = 0; i < mesh_.images.size(); ++i) {
+    const auto& [source, signs] = mesh_.images[i];
+    const int image = mesh_.n_real_elements() + static_cast<int>(i);
+    unsigned negative = 0;
+    for (int c = 0; c < dim; ++c) negative |= static_cast<unsigned>(signs[c] < 0.) << c;
+    for (int k = 0; k < mesh_.n_corners(image); ++k) {
+      const int node = nodes_of(source)[k];
+      const auto [entry, is_new] = known.try_emplace({node, negative}, n_nodes());
+      if (is_new) {
+        images_.push_back({node, signs});
+        reference_nodes_.push_back(mesh_.corners_of(image)[k]);
+        global_nodes_.push_back(global_nodes_[node]);
+      }
+      node_at_corner_[mesh_.first_corner[image] + k] = entry->second;
+    }
+  }
+}
+
+template <int dim>
+void DofMap<dim>::find_across_planes(const std::vector<char>& discontinuous) {
+  for (const auto& plane : mesh_.symmetry_planes) {
+    for (int e = 0; e < mesh_.n_real_elements(); ++e) {
+      if (discontinuous[e]) continue;
+      for (int k = 0; k < mesh_.n_corners(e); ++k) {
+        if (!std::binary_search(plane.nodes.begin(), plane.nodes.end(), mesh_.corners_of(e)[k])) continue;
+        across_planes_.push_back(nodes_of(e)[k] * dim + plane.axis);
+      }
+    }
+  }
+  std::sort(across_planes_.begin(), across_planes_.end());
+  across_planes_.erase(std::unique(across_planes_.begin(), across_planes_.end()), across_planes_.end());
+}
+
+template <int dim>
+void DofMap<dim>::complete_images(base::Field values) const {
+  PERIMORPH_ASSERT(values.size() == static_cast<base::Field::size_type>(n_nodes()) * dim, "{} values at {} nodes",
+                   values.size(), n_nodes());
+  for (int n = n_real_nodes(); n < n_nodes(); ++n) {
+    const auto& [node, signs] = image(n);
+    for (int c = 0; c < dim; ++c) values[n * dim + c] = signs[c] * values[node * dim + c];
   }
 }
 

@@ -25,13 +25,18 @@ std::vector<double> expansion_per_degree(const mesh::Mesh<dim>& mesh, const elem
                                          const TemperatureChange<dim>& change, const std::vector<double>& expansion) {
   const auto is_changed = changed_blocks(mesh, change);
   std::vector<double> at_points(points.size(), 0.);
-  for (int e = 0; e < mesh.n_elements(); ++e) {
+  for (int e = 0; e < mesh.n_real_elements(); ++e) {
     if (!is_changed[mesh.blocks[e]]) continue;
     for (int p = points.first(e); p < points.first(e + 1); ++p) {
       const auto& profile = change.profile;
       const double factor = profile ? profile->factor.at(profile->direction.dot(points.position(p))) : 1.;
       at_points[p] = factor * expansion[e];
     }
+  }
+  for (std::size_t i = 0; i < mesh.images.size(); ++i) {
+    const int source = mesh.images[i].element, image = mesh.n_real_elements() + static_cast<int>(i);
+    std::copy_n(at_points.begin() + points.first(source), points.count(source),
+                at_points.begin() + points.first(image));
   }
   return at_points;
 }

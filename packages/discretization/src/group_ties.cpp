@@ -54,7 +54,7 @@ typename GroupTies<dim>::Tie GroupTies<dim>::make(const DofMap<dim>& dofs, const
                                                   double load_factor) const {
   Tie tie;
   std::vector<base::Point<dim>> arms;  // of the degrees of freedom
-  for (int n = 0; n < dofs.n_nodes(); ++n) {
+  for (int n = 0; n < dofs.n_real_nodes(); ++n) {
     const auto found = std::lower_bound(group.nodes.begin(), group.nodes.end(), dofs.reference_node(n));
     if (found == group.nodes.end() || *found != dofs.reference_node(n)) continue;
     for (int c = 0; c < dim; ++c) {

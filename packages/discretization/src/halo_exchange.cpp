@@ -1,14 +1,19 @@
 #include "perimorph/discretization/halo_exchange.hpp"
 
 #include <unordered_map>
+#include <utility>
 
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::discretization {
 
 HaloExchange::HaloExchange(const base::Comm& comm, const std::vector<base::GlobalId>& keys,
-                           const std::vector<int>& owners)
-    : comm_(comm), n_items_(keys.size()), sent_(comm.getSize()), received_(comm.getSize()) {
+                           const std::vector<int>& owners, std::vector<int> twins)
+    : comm_(comm),
+      n_items_(keys.size() + twins.size()),
+      sent_(comm.getSize()),
+      received_(comm.getSize()),
+      twins_(std::move(twins)) {
   PERIMORPH_ASSERT(keys.size() == owners.size(), "{} items with {} owners", keys.size(), owners.size());
   std::unordered_map<base::GlobalId, int> owned;
   std::vector<std::vector<base::GlobalId>> wanted(comm.getSize());

@@ -67,8 +67,8 @@ template <int dim>
 void Measure<dim>::add_group(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::string& group,
                              const Point<dim>& direction) {
   std::vector<int> n_around(mesh.n_owned_nodes, 0);
-  for (const int node : mesh.corners) {
-    if (node < mesh.n_owned_nodes) ++n_around[node];
+  for (int c = 0; c < mesh.first_corner[mesh.n_real_elements()]; ++c) {
+    if (mesh.corners[c] < mesh.n_owned_nodes) ++n_around[mesh.corners[c]];
   }
   std::vector<char> is_member(mesh.n_owned_nodes, 0);
   const auto found = mesh.node_sets.find(group);
@@ -78,7 +78,7 @@ void Measure<dim>::add_group(const base::Comm& comm, const mesh::Mesh<dim>& mesh
   }
   const auto n_members = base::sum(comm, static_cast<GlobalId>(std::count(is_member.begin(), is_member.end(), 1)));
   if (n_members == 0) throw base::UserError(fmt::format("a measure's group, \"{}\", has no nodes", group));
-  for (int e = 0; e < mesh.n_elements(); ++e) {
+  for (int e = 0; e < mesh.n_real_elements(); ++e) {
     for (int k = 0; k < mesh.n_corners(e); ++k) {
       const int node = mesh.corners_of(e)[k];
       if (node >= mesh.n_owned_nodes || !is_member[node]) continue;

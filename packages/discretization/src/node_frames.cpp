@@ -36,7 +36,7 @@ NodeFrames<dim>::NodeFrames(const DofMap<dim>& dofs, const Dirichlet<dim>& diric
   const auto& oblique = dirichlet.oblique();
   if (oblique.empty()) return;
   frame_at_.assign(dofs.n_nodes(), -1);
-  for (int n = 0; n < dofs.n_nodes(); ++n) {
+  for (int n = 0; n < dofs.n_real_nodes(); ++n) {
     const auto found = oblique.find(dofs.reference_node(n));
     if (found == oblique.end()) continue;
     frame_at_[n] = static_cast<int>(frames_.size());

@@ -33,8 +33,8 @@ void visit_local(const std::vector<Record>& records, const mesh::Mesh<dim>& mesh
   }
 }
 
-/// Calls visit(record, bond) for the records of bonds that this rank holds. Returns of how many it owns the first
-/// element. Local.
+/// Calls visit(record, bond) for the records of bonds that this rank holds. Returns how many count here
+/// (BondFamilies::counts_here). Local.
 template <int dim, class Record, class Visit>
 GlobalId visit_held(const std::vector<Record>& records, const Topology<dim>& topology, Visit visit) {
   const auto& bonds = topology.bonds();
@@ -43,7 +43,7 @@ GlobalId visit_held(const std::vector<Record>& records, const Topology<dim>& top
     const auto bond = bonds.find(ends.first_element, ends.first_end, ends.second_element, ends.second_end);
     if (bond == bonds.n_bonds()) return;
     visit(record, bond);
-    n_own += ends.first_element < topology.mesh().n_owned_elements;
+    n_own += bonds.counts_here(bonds.bond(bond));
   });
   return n_own;
 }
@@ -135,15 +135,17 @@ bonds::Slips<dim> find_slips(const SavedState<dim>& saved, const Topology<dim>& 
 template <int dim>
 std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topology<dim>& topology) {
   const auto& dofs = topology.dofs();
-  PERIMORPH_ASSERT(saved.displacement.size() == topology.mesh().n_elements() * stride<dim>,
-                   "{} displacements of {} elements", saved.displacement.size(), topology.mesh().n_elements());
+  const int n_elements = topology.mesh().n_real_elements();
+  PERIMORPH_ASSERT(saved.displacement.size() == n_elements * stride<dim>, "{} displacements of {} elements",
+                   saved.displacement.size(), n_elements);
   std::vector<double> u(static_cast<std::size_t>(dofs.n_nodes()) * dim, 0.);
-  for (int e = 0; e < topology.mesh().n_elements(); ++e) {
+  for (int e = 0; e < n_elements; ++e) {
     const double* values = saved.displacement.data() + e * stride<dim>;
     for (int k = 0; k < topology.mesh().n_corners(e); ++k) {
       std::copy_n(values + k * dim, dim, u.data() + dofs.nodes_of(e)[k] * dim);
     }
   }
+  dofs.complete_images(base::field(u));
   return u;
 }
 

@@ -18,15 +18,23 @@ Space<dim>::Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet)
       is_constrained_(static_cast<std::size_t>(dofs.n_nodes()) * dim, 0),
       owned_(Teuchos::rcp(new Vector(dofs.owned_dofs()))),
       all_(Teuchos::rcp(new Vector(dofs.all_dofs()))) {
-  for (int dof = 0; dof < static_cast<int>(n_local()); ++dof) {
-    if (dirichlet.prescribes(dofs.reference_node(dof / dim), dof % dim)) along_axes_.push_back(dof);
+  for (int dof = 0; dof < dofs.n_real_nodes() * dim; ++dof) {
+    if (dirichlet.prescribes(dofs.reference_node(dof / dim), dof % dim)) prescribed_.push_back(dof);
   }
+  const auto& across = dofs.across_planes();
+  std::set_union(prescribed_.begin(), prescribed_.end(), across.begin(), across.end(), std::back_inserter(along_axes_));
+  prescribed_.clear();
   const auto in_frames = frames_.prescribed();
   std::merge(along_axes_.begin(), along_axes_.end(), in_frames.begin(), in_frames.end(),
              std::back_inserter(prescribed_));
   const auto tied = groups_.dofs();
   std::merge(prescribed_.begin(), prescribed_.end(), tied.begin(), tied.end(), std::back_inserter(constrained_));
   for (const int dof : constrained_) is_constrained_[dof] = 1;
+  if (dofs.images().empty()) return;
+  with_images_.resize(n_local());
+  for (int dof = dofs.n_real_nodes() * dim; dof < static_cast<int>(n_local()); ++dof) {
+    is_constrained_[dof] = is_constrained_[dofs.image(dof / dim).node * dim + dof % dim];
+  }
 }
 
 template <int dim>
@@ -39,10 +47,11 @@ void Space<dim>::expand(base::Field u, double load_factor) const {
   }
   all_->doImport(*owned_, *dofs_.import(), Tpetra::INSERT);
   const auto all = all_->getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::copy_n(all.data(), n_local(), u.getRawPtr());
+  std::copy_n(all.data(), all.extent(0), u.getRawPtr());
   for (const int dof : along_axes_) u[dof] = ramp(dof).at(load_factor);
   frames_.prescribe(u, load_factor);
   groups_.prescribe(u, load_factor);
+  dofs_.complete_images(u);
 }
 
 template <int dim>
@@ -50,10 +59,13 @@ base::ConstField Space<dim>::expand_change(const Vector& x) const {
   PERIMORPH_ASSERT(x.getLocalLength() == n_owned(), "{} values for {} unknowns", x.getLocalLength(), n_owned());
   all_->doImport(x, *dofs_.import(), Tpetra::INSERT);
   const auto all = all_->getLocalViewHost(Tpetra::Access::ReadWrite);
-  const base::Field change(all.data(), static_cast<base::Field::size_type>(n_local()));
+  if (!with_images_.empty()) std::copy_n(all.data(), all.extent(0), with_images_.begin());
+  const base::Field change(with_images_.empty() ? all.data() : with_images_.data(),
+                           static_cast<base::Field::size_type>(n_local()));
   for (const int dof : prescribed_) change[dof] = 0.;
   frames_.turn_back(change);
   groups_.project(change);
+  dofs_.complete_images(change);
   return change;
 }
 
@@ -63,6 +75,7 @@ std::vector<double> Space<dim>::prescribed_rates(double load_factor, double step
   for (const int dof : along_axes_) rates[dof] = ramp(dof).rate_in(load_factor, step);
   frames_.add_rates(base::field(rates), load_factor, step);
   groups_.add_rates(base::field(rates), load_factor, step);
+  dofs_.complete_images(base::field(rates));
   return rates;
 }
 

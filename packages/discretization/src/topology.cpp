@@ -6,6 +6,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/distribute.hpp"
+#include "perimorph/mesh/images.hpp"
 
 namespace perimorph::discretization {
 
@@ -35,6 +36,12 @@ std::vector<char> find_cut_elements(const mesh::Mesh<dim>& mesh, const elements:
   return cut;
 }
 
+template <int dim>
+TopologyOptions<dim> with_images(const mesh::Mesh<dim>& mesh, TopologyOptions<dim> options) {
+  options.pre_cracks = mesh::with_images<dim>(options.pre_cracks, mesh.symmetry_planes);
+  return options;
+}
+
 }  // namespace
 
 template <int dim>
@@ -42,7 +49,7 @@ Topology<dim>::Topology(const Teuchos::RCP<const base::Comm>& comm, const mesh::
                         TopologyOptions<dim> options)
     : comm_(comm),
       mesh_(mesh),
-      options_(std::move(options)),
+      options_(with_images(mesh, std::move(options))),
       points_(mesh, options_.points_per_direction),
       alpha_(mesh, points_, options_.blending_function),
       bonds_(mesh, points_, mesh::active_elements(mesh), options_.materials, options_.pre_cracks, options_.stiffness),

@@ -1,6 +1,7 @@
 #include "perimorph/elements/material_points.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
 
 namespace perimorph::elements {
@@ -16,7 +17,8 @@ MaterialPoints<dim>::MaterialPoints(const mesh::Mesh<dim>& mesh, int points_per_
       base::Point<dim> x = base::Point<dim>::Zero();
       for (int k = 0; k < reference.n_corners; ++k)
         x += reference.shape[q](k) * mesh.coordinates[mesh.corners_of(e)[k]];
-      const double volume = reference.weights[q] * jacobian(e, q).determinant();
+      const double determinant = jacobian(e, q).determinant();  // images have their corners in the same order
+      const double volume = reference.weights[q] * (e < mesh.n_real_elements() ? determinant : std::abs(determinant));
       PERIMORPH_ASSERT(volume > 0., "element {} has volume {} at point {}", mesh.element_ids[e], volume, q);
       positions_.push_back(x);
       weights_.push_back(volume);

@@ -43,9 +43,7 @@ Damage find_damage(const base::Comm& comm, const operators::CoupledModel<dim>& m
   bonds::BondChange change;
   change.broken = bonds.overstretched(u, classes, ratio, strains);
   change.softened = bonds.softened(u, classes, may_recover, at_points.eigenstrain);
-  const auto is_counted_here = [&](bonds::BondId b) {
-    return bonds.bond(b).first_element < model.mesh.n_owned_elements;
-  };
+  const auto is_counted_here = [&](bonds::BondId b) { return bonds.counts_here(bonds.bond(b)); };
   const auto held = operators::energy_of_broken(model, change.broken, at_points);
   std::vector<double> sums = {
       held.all, held.brittle,

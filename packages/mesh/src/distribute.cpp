@@ -250,7 +250,7 @@ Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& whole, double halo
 template <int dim>
 std::vector<char> active_elements(const Mesh<dim>& mesh) {
   std::vector<char> active(mesh.n_elements(), 0);
-  for (int e = 0; e < mesh.n_elements(); ++e) {
+  for (int e = 0; e < mesh.n_real_elements(); ++e) {
     const int* corners = mesh.corners_of(e);
     active[e] = e < mesh.n_owned_elements ||
                 std::any_of(corners, corners + mesh.n_corners(e), [&](int node) { return node < mesh.n_owned_nodes; });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "perimorph/mesh/distribute.hpp"
+#include "perimorph/mesh/images.hpp"
 
 namespace perimorph::model {
 
@@ -56,7 +57,12 @@ template <int dim>
 mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
                                 const std::vector<double>& costs) {
   const bool is_uncracked_and_classical = !problem.has_zones() && problem.pre_cracks.empty();
-  return mesh::distribute(comm, whole, is_uncracked_and_classical ? 0. : problem.horizon(), costs);
+  const double width = is_uncracked_and_classical ? 0. : problem.horizon();
+  auto part = mesh::distribute(comm, whole, width, costs);
+  std::vector<mesh::SymmetryPlane> planes;
+  for (const auto& group : problem.symmetry_planes) planes.push_back(mesh::symmetry_plane(comm, part, group));
+  mesh::add_images(part, std::move(planes), width);
+  return part;
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                                    \

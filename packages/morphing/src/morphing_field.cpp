@@ -74,7 +74,7 @@ template <int dim>
 std::vector<int> MorphingField<dim>::add(const std::vector<Zone<dim>>& zones) {
   std::vector<int> risen;
   if (zones.empty()) return risen;
-  for (int e = 0; e < mesh_.n_elements(); ++e) {
+  for (int e = 0; e < mesh_.n_real_elements(); ++e) {
     bool rose = false;
     for (int p = points_.first(e); p < points_.first(e + 1); ++p) {
       double alpha = alpha_[p];
@@ -89,6 +89,14 @@ std::vector<int> MorphingField<dim>::add(const std::vector<Zone<dim>>& zones) {
     if (!rose) continue;
     carries_bonds_[e] = 1;
     risen.push_back(e);
+  }
+  const auto n_real = static_cast<std::ptrdiff_t>(risen.size());
+  for (std::size_t i = 0; i < mesh_.images.size(); ++i) {
+    const int image = mesh_.n_real_elements() + static_cast<int>(i), source = mesh_.images[i].element;
+    if (!std::binary_search(risen.begin(), risen.begin() + n_real, source)) continue;
+    std::copy_n(alpha_.begin() + points_.first(source), points_.count(source), alpha_.begin() + points_.first(image));
+    carries_bonds_[image] = 1;
+    risen.push_back(image);
   }
   return risen;
 }

@@ -53,8 +53,13 @@ BondForces<dim>::BondForces(const CoupledModel<dim>& model)
 template <int dim>
 void BondForces<dim>::make_packets() {
   const auto& bonds = model_.bonds;
+  std::vector<char> has_bonds(model_.mesh.n_elements(), 0);
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) has_bonds[e] = !bonds.pairs_of(e).empty();
+  for (std::size_t i = 0; i < model_.mesh.images.size(); ++i) {  // whose dilatation is that of their elements
+    if (has_bonds[model_.mesh.n_real_elements() + i] != 0) has_bonds[model_.mesh.images[i].element] = 1;
+  }
   for (int e = 0; e < model_.mesh.n_elements(); ++e) {
-    if (bonds.pairs_of(e).empty()) continue;
+    if (has_bonds[e] == 0) continue;
     first_packet_[e] = static_cast<int>(packets_.size());
     const double root_of_tau0 = std::sqrt(bonds.materials().micromodulus_of(e).tau0);
     for (int q = 0; q < model_.points.count(e); q += n_lanes) {
@@ -126,19 +131,27 @@ void BondForces<dim>::make_blocks() {
 template <int dim>
 void BondForces<dim>::make_dilatation() {
   constexpr int most_lanes = (elements::max_points + n_lanes - 1) / n_lanes * n_lanes;
+  const auto& mesh = model_.mesh;
   std::vector<base::GlobalId> ids;
   std::vector<double> factors;
+  std::vector<std::size_t> twins;
   std::size_t n_owned = 0;
-  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+  for (int e = 0; e < mesh.n_elements(); ++e) {
     if (first_packet_[e] < 0) continue;
     for (int q = 0; q < model_.points.count(e); q += n_lanes) {
-      for (int lane = 0; lane < n_lanes; ++lane) ids.push_back(model_.mesh.element_ids[e] * most_lanes + q + lane);
+      for (int lane = q; lane < q + n_lanes; ++lane) {
+        if (e < mesh.n_real_elements()) {
+          ids.push_back(mesh.element_ids[e] * most_lanes + lane);
+        } else {
+          twins.push_back(lane_of(mesh.images[e - mesh.n_real_elements()].element, lane));
+        }
+      }
     }
     factors.resize(ids.size(), model_.elasticity.dilatation_factor(e));
-    if (e < model_.mesh.n_owned_elements) n_owned = ids.size();
+    if (e < mesh.n_owned_elements) n_owned = ids.size();
   }
-  dilatation_.emplace(model_.dofs.owned_dofs()->getComm(), ids, n_owned, std::move(factors));
-  stretches_.resize(ids.size());
+  dilatation_.emplace(model_.dofs.owned_dofs()->getComm(), ids, n_owned, std::move(factors), std::move(twins));
+  stretches_.resize(packets_.size() * n_lanes);
   model_.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
     if (bond.is_broken) return;
     const double weight = weight_of(bond, stiffness_left(model_, bond));

@@ -62,8 +62,9 @@ HeldEnergy energy_of_broken(const CoupledModel<dim>& model, const std::vector<bo
   HeldEnergy held;
   for (const auto b : broken) {
     const auto bond = model.bonds.bond(b);
-    if (bond.first_element >= model.mesh.n_owned_elements) continue;
-    const double energy = BondSpring<dim>(model, bond, at_points).energy();
+    const double share = model.bonds.share_here(bond);
+    if (share == 0.) continue;
+    const double energy = share * BondSpring<dim>(model, bond, at_points).energy();
     held.all += energy;
     if (!model.law(bond).softens()) held.brittle += energy;
   }
@@ -76,12 +77,14 @@ double dissipation_of_softening(const CoupledModel<dim>& model, const PointField
                    "displacements at {} of {} points", at_points.displacement.size(), model.points.size());
   double dissipated = 0.;
   model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
-    if (bond.first_element >= model.mesh.n_owned_elements || !model.law(bond).softens()) return;
+    const double share = model.bonds.share_here(bond);
+    if (share == 0. || !model.law(bond).softens()) return;
     const auto& law = model.law(bond);
     const auto [accepted, largest] = model.bonds.softening(bond.id);
     const double to = bond.is_broken ? law.critical_stretch() : static_cast<double>(largest);
     if (to == accepted) return;
-    dissipated += energy_release(model, bond, at_points, to) * (law.dissipation(to) - law.dissipation(accepted));
+    dissipated +=
+        share * energy_release(model, bond, at_points, to) * (law.dissipation(to) - law.dissipation(accepted));
   });
   return dissipated;
 }

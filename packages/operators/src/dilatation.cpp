@@ -10,8 +10,12 @@
 namespace perimorph::operators {
 
 Dilatation::Dilatation(const Teuchos::RCP<const base::Comm>& comm, const std::vector<base::GlobalId>& ids,
-                       std::size_t n_owned, std::vector<double> factors)
-    : factors_(std::move(factors)), n_owned_(n_owned), weighted_volumes_(ids.size(), 0.), n_bonds_(ids.size(), 0) {
+                       std::size_t n_owned, std::vector<double> factors, std::vector<std::size_t> twins)
+    : factors_(std::move(factors)),
+      twins_(std::move(twins)),
+      n_owned_(n_owned),
+      weighted_volumes_(ids.size() + twins_.size(), 0.),
+      n_bonds_(weighted_volumes_.size(), 0) {
   PERIMORPH_ASSERT(n_owned <= ids.size() && factors_.size() == ids.size(), "{} of {} points are owned, {} factors",
                    n_owned, ids.size(), factors_.size());
   if (comm->getSize() == 1) return;
@@ -46,10 +50,13 @@ void Dilatation::to_stretch(std::vector<double>& sums) const {
   for (std::size_t i = 0; i < n_owned_; ++i) {
     sums[i] = n_bonds_[i] > 0 ? factors_[i] / weighted_volumes_[i] * sums[i] : 0.;
   }
-  if (import_.is_null()) return;
-  std::copy_n(sums.begin(), n_owned_, owned_->getDataNonConst().begin());
-  all_->doImport(*owned_, *import_, Tpetra::INSERT);
-  std::copy_n(all_->getData().begin(), sums.size(), sums.begin());
+  const std::size_t n_points = factors_.size();
+  if (!import_.is_null()) {
+    std::copy_n(sums.begin(), n_owned_, owned_->getDataNonConst().begin());
+    all_->doImport(*owned_, *import_, Tpetra::INSERT);
+    std::copy_n(all_->getData().begin(), n_points, sums.begin());
+  }
+  for (std::size_t i = 0; i < twins_.size(); ++i) sums[n_points + i] = sums[twins_[i]];
 }
 
 std::size_t Dilatation::bytes() const {

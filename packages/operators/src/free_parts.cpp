@@ -45,6 +45,7 @@ base::DisjointSets joined_nodes(const CoupledModel<dim>& model, const Ties<dim>&
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
     for (int k = 1; k < model.mesh.n_corners(e); ++k) joined.join(model.dofs.nodes_of(e)[k], model.dofs.nodes_of(e)[0]);
   }
+  for (int n = model.dofs.n_real_nodes(); n < model.dofs.n_nodes(); ++n) joined.join(n, model.dofs.image(n).node);
   const auto join = [&](const bonds::Bond<dim>& bond) {
     joined.join(model.dofs.nodes_of(bond.first_element)[0], model.dofs.nodes_of(bond.second_element)[0]);
   };
@@ -91,7 +92,7 @@ std::vector<GlobalId> parts_of_nodes(const base::Comm& comm, const CoupledModel<
     all.doImport(owned, *dofs.import(), Tpetra::INSERT);
     const auto values = all.getLocalViewHost(Tpetra::Access::ReadOnly);
     has_changed = 0;
-    for (int n = 0; n < dofs.n_nodes(); ++n) {
+    for (int n = 0; n < dofs.n_real_nodes(); ++n) {
       const auto now = std::min(lowest[joined.lowest(n)], static_cast<GlobalId>(values(n * dim, 0)));
       if (now != part[n]) has_changed = 1;
       part[n] = now;

@@ -108,7 +108,8 @@ void StiffnessMatrix<dim>::find_pattern(const Couplings<dim>& couplings) {
   std::vector<int> seen_by(dofs.n_nodes(), -1);
   first_.push_back(0);
   for (int row = 0; row < dofs.n_owned_nodes(); ++row) {
-    const auto include = [&](int node) {
+    const auto include = [&](int any_node) {
+      const int node = any_node < dofs.n_real_nodes() ? any_node : dofs.image(any_node).node;
       if (seen_by[node] == row) return;
       seen_by[node] = row;
       columns_.push_back(node);
@@ -160,6 +161,10 @@ void StiffnessMatrix<dim>::make_matrix() {
 template <int dim>
 void StiffnessMatrix<dim>::add_block(int row, int column, const Block& of_nodes) {
   if (of_nodes.isZero(0.)) return;  // perhaps no entry either
+  if (column >= model_.dofs.n_real_nodes()) {
+    const auto& [node, signs] = model_.dofs.image(column);
+    return add_block(row, node, of_nodes * signs.asDiagonal());
+  }
   const Block block = space_.frames().is_empty() ? of_nodes : space_.frames().between_unknowns(row, column, of_nodes);
   const int* begin = columns_.data() + first_[row];
   const int* end = columns_.data() + first_[row + 1];

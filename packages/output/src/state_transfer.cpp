@@ -96,7 +96,8 @@ SavedState<dim> share_state(const base::Comm& comm, const io::Checkpoint& gather
   DataSetReader reader(comm, gathered);
   describe(reader, state, FlagPoint<dim>{});
   const auto all = comm.getRank() == 0 ? gathered.numbers.at(displacement_name) : std::vector<double>();
-  state.displacement = fetch(comm, mesh.element_ids, SavedState<dim>::values_per_element, all);
+  const std::vector<GlobalId> elements(mesh.element_ids.begin(), mesh.element_ids.begin() + mesh.n_real_elements());
+  state.displacement = fetch(comm, elements, SavedState<dim>::values_per_element, all);
   return state;
 }
 

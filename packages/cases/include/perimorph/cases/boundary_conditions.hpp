@@ -22,10 +22,16 @@ struct Pressure {
   double rate = 0., constant = 0.;
 };
 
+/// A plane beyond which the body goes on as its mirror image.
+struct SymmetryPlane {
+  std::string name, group;
+};
+
 /// What holds the body and what loads it.
 struct BoundaryConditions {
   std::vector<discretization::PrescribedComponent> displacements;  ///< directions of any length
   std::vector<discretization::RigidGroup> rigid_groups;
+  std::vector<SymmetryPlane> symmetry_planes;
   std::vector<Traction> tractions;
   std::vector<Pressure> pressures;
   std::vector<Temperature> temperatures;

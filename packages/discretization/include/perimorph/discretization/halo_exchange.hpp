@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "perimorph/base/errors.hpp"
@@ -13,7 +14,9 @@ class HaloExchange {
   /// Collective.
   /// @param keys global id of each local item, (n_items)
   /// @param owners rank that owns it, (n_items); it holds the item itself
-  HaloExchange(const base::Comm& comm, const std::vector<base::GlobalId>& keys, const std::vector<int>& owners);
+  /// @param twins further items, each by the one whose values it takes over here
+  HaloExchange(const base::Comm& comm, const std::vector<base::GlobalId>& keys, const std::vector<int>& owners,
+               std::vector<int> twins = {});
 
   /// Overwrites the values of items owned elsewhere. Collective.
   /// @param values of each local item, (n_items)
@@ -40,12 +43,18 @@ class HaloExchange {
         for (int i = first(item); i < first(item + 1); ++i) values[i] = *next++;
       }
     }
+    const int n_own = static_cast<int>(n_items_ - twins_.size());
+    for (std::size_t t = 0; t < twins_.size(); ++t) {
+      std::copy(values.begin() + first(twins_[t]), values.begin() + first(twins_[t] + 1),
+                values.begin() + first(n_own + static_cast<int>(t)));
+    }
   }
 
  private:
   const base::Comm& comm_;
   std::size_t n_items_;
   std::vector<std::vector<int>> sent_, received_;  ///< local items by rank
+  std::vector<int> twins_;
 };
 
 }  // namespace perimorph::discretization

@@ -13,8 +13,9 @@ namespace perimorph::discretization {
 
 /// What turns the unknowns of a topology into displacements at all nodes of this rank, and forces on nodes back into
 /// forces on unknowns. Every degree of freedom is an unknown, by and large the displacement of an owned node along an
-/// axis, but for those that are constrained: prescribed, or one of a group's that moves as one. Fields on nodes are
-/// (n_nodes, dim), owned nodes first. What is collective says so; what else there is of groups and frames is local.
+/// axis, but for those that are constrained: prescribed, across a plane of symmetry, or one of a group's that moves as
+/// one. Fields on nodes are (n_nodes, dim), owned nodes first, mirror images last. What is collective says so; what
+/// else there is of groups and frames is local.
 template <int dim>
 class Space {
  public:
@@ -30,8 +31,10 @@ class Space {
     PERIMORPH_DEBUG_ASSERT(dof >= 0 && dof < static_cast<int>(n_local()), "degree of freedom {} of {}", dof, n_local());
     return is_constrained_[dof] != 0;
   }
-  const std::vector<int>& constrained() const { return constrained_; }  ///< local degrees of freedom, ascending
-  const std::vector<int>& prescribed() const { return prescribed_; }    ///< the same of them
+  const std::vector<int>& constrained() const {
+    return constrained_;
+  }  ///< local degrees of freedom, ascending, images without
+  const std::vector<int>& prescribed() const { return prescribed_; }  ///< the same of them
 
   /// Completes a displacement from its values on owned nodes: copies, and what is constrained. Collective.
   /// @param u on all local degrees of freedom, [length]
@@ -66,10 +69,11 @@ class Space {
   const Dirichlet<dim>& dirichlet_;
   NodeFrames<dim> frames_;
   GroupTies<dim> groups_;
-  std::vector<int> along_axes_;  ///< of those that are prescribed, along x, y or z
+  std::vector<int> along_axes_;  ///< of those that are prescribed, along x, y or z; zero across planes of symmetry
   std::vector<int> prescribed_, constrained_;
   std::vector<char> is_constrained_;  ///< per local degree of freedom
   Teuchos::RCP<Vector> owned_, all_;
+  mutable std::vector<double> with_images_;  ///< (n_local); empty without images
 
   Ramp<double> ramp(int dof) const { return dirichlet_.ramp(dofs_.reference_node(dof / dim), dof % dim); }
 };

@@ -19,13 +19,28 @@ struct Side {
   int side;
 };
 
+/// A plane across an axis, beyond which the body goes on as its mirror image.
+struct SymmetryPlane {
+  int axis;
+  double place;            ///< along that axis, [length]
+  std::vector<int> nodes;  ///< local nodes on it, ascending
+};
+
+/// The mirror image of an element, across one plane of symmetry or more.
+template <int dim>
+struct Image {
+  int element;       ///< local, that it is the image of
+  Point<dim> signs;  ///< 1 or -1, by which components of vectors there become those of the image
+};
+
 /// The reference mesh, or the part of it that one rank holds: its own elements and a halo of its neighbours'.
 /// As read from a file it is whole, lies on rank 0 and belongs to rank 0; distribute() gives every rank its part.
 /// Nothing in it changes afterwards: elements that become discontinuous change only degrees of freedom.
 ///
 /// Local indices are ints. Local elements are ordered: owned ones first, then the halo, each by ascending global id.
 /// Local nodes likewise: owned, then others, by ascending global id. A rank's part holds all elements around each node
-/// that it owns.
+/// that it owns. Images of elements beyond planes of symmetry (images.hpp) are the last of its elements: they are no
+/// part of the body and belong to no rank, but have neighbours in it. They share the nodes on the planes with it.
 template <int dim>
 struct Mesh {
   // Nodes, indexed by local node.
@@ -51,6 +66,9 @@ struct Mesh {
   /// Sides of local elements that belong to one element of the whole body only: its boundary, pre-cracks included.
   std::vector<Side> boundary;
 
+  std::vector<SymmetryPlane> symmetry_planes;
+  std::vector<Image<dim>> images;  ///< what the last elements are images of, in their order
+
   std::vector<std::string> notes;  ///< of a whole mesh: what was changed when it was read, a line each, for the user
 
   int rank = 0;
@@ -61,6 +79,7 @@ struct Mesh {
 
   int n_nodes() const { return static_cast<int>(coordinates.size()); }
   int n_elements() const { return static_cast<int>(types.size()); }
+  int n_real_elements() const { return n_elements() - static_cast<int>(images.size()); }
   int n_corners(int element) const {
     PERIMORPH_DEBUG_ASSERT(has_element(element), "element {} of {}", element, n_elements());
     return first_corner[element + 1] - first_corner[element];

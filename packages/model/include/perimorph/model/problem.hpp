@@ -56,6 +56,7 @@ struct Problem {
   const discretization::Amplitude* common_amplitude = nullptr;  ///< of all loads that are proportional; null: none
   std::optional<MeasureControl<dim>> control = {};              ///< none: the load factor is the increment's number
   std::vector<discretization::RigidGroup> rigid_groups = {};    ///< that displacements may move as a whole
+  std::vector<std::string> symmetry_planes = {};  ///< groups on planes beyond which the body goes on as its image
   std::vector<discretization::TemperatureChange<dim>> temperature_changes = {};
   double thickness = 1.;  ///< of a body in two dimensions, which forces and energies are multiplied by, [length]
 
@@ -86,7 +87,8 @@ template <int dim>
 discretization::Eigenstrain<dim> eigenstrain(const mesh::Mesh<dim>& mesh, const elements::MaterialPoints<dim>& points,
                                              const Problem<dim>& problem);
 
-/// Each rank's part of the mesh, with a halo as the problem needs it. Collective.
+/// Each rank's part of the mesh, with a halo and images beyond planes of symmetry as the problem needs them.
+/// Collective.
 /// @param whole the mesh, on rank 0
 /// @param costs of each element of the whole mesh (on rank 0), in any unit, or empty for equal
 ///        ones

@@ -21,8 +21,9 @@ class Dilatation {
   /// @param ids of the points over all ranks, (n_points), those of this rank first
   /// @param n_owned how many are of this rank; it has all of their bonds
   /// @param factors dim kappa / (2 (dim + 2) mu) of their materials, (n_points), [-]
+  /// @param twins further points, each by the one that it is a mirror image of
   Dilatation(const Teuchos::RCP<const base::Comm>& comm, const std::vector<base::GlobalId>& ids, std::size_t n_owned,
-             std::vector<double> factors);
+             std::vector<double> factors, std::vector<std::size_t> twins = {});
 
   /// A bond that a point has, or has no longer. @param weight c |xi|^4, [force length]
   void add(std::size_t point, double weight);
@@ -30,13 +31,14 @@ class Dilatation {
   /// It still has it, with less weight. @param weight what is lost
   void weaken(std::size_t point, double weight);
 
-  /// Makes p of S, (n_points), [force length] to [-]; at points of other ranks as it is there. Collective.
+  /// Makes p of S, (n_points and twins), [force length] to [-]; at points of other ranks as it is there. Collective.
   void to_stretch(std::vector<double>& sums) const;
 
   std::size_t bytes() const;  ///< of memory
 
  private:
   std::vector<double> factors_;
+  std::vector<std::size_t> twins_;
   std::size_t n_owned_;
   std::vector<double> weighted_volumes_;         ///< M, [force length]
   std::vector<int> n_bonds_;                     ///< that make it up: of none it is zero, whatever rounding has left
