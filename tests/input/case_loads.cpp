@@ -207,6 +207,41 @@ TEST_F(CaseFile, MistakesOfWhatAStepReleasesAreNamed) {
   }
 }
 
+TEST_F(CaseFile, AStepStartsConditions) {
+  const std::string up = "Loading/Steps/up/", grip = "Loading/Steps/grip/";
+  const perimorph::cases::Case input =
+      read(valid, {"Loading/Increments=6", up + "Increments=4", up + "Conditions={wind}", up + "Values={4}",
+                   grip + "Increments=2", grip + "Started={pull}", grip + "Conditions={pull}", grip + "Values={1}"});
+  const auto problem = perimorph::cases::make_problem<2>(input);
+  EXPECT_FALSE(problem.is_proportional);
+  const auto& pull = problem.displacements[1].value;
+  EXPECT_EQ(pull.begin, 4.);
+  EXPECT_EQ(pull.at(4.), 0.);
+  EXPECT_EQ(pull.at(6.), pull.rate);
+  EXPECT_LT(problem.displacements[0].value.begin, -1e300);
+}
+
+TEST_F(CaseFile, MistakesOfWhatAStepStartsAreNamed) {
+  const std::string up = "Loading/Steps/up/", grip = "Loading/Steps/grip/", last = "Loading/Steps/last/";
+  const std::vector<std::string> steps = {"Loading/Increments=5", up + "Increments=4",   up + "Conditions={wind}",
+                                          up + "Values={4}",      grip + "Increments=1", grip + "Conditions={pull}",
+                                          grip + "Values={1}"};
+  const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
+      {{up + "Started={hold}"}, "/Loading/Steps/up/Started: found in the first step; allowed is it in later ones"},
+      {{grip + "Started={wind}"},
+       "/Loading/Steps/grip/Started: found \"wind\"; the conditions that hold the body or have"},
+      {{grip + "Started={pull, pull}"}, "/Loading/Steps/grip/Started: found \"pull\" again; allowed is each once"},
+      {{last + "Increments=1", last + "Started={pull}"},
+       "/Loading/Steps/grip/Conditions: found \"pull\", which a later step starts"},
+      {{grip + "Started={pull}", "Boundary Conditions/Rigid Groups/grip/Group=right"},
+       "/Loading/Steps/grip/Started: found \"pull\", which moves the rigid group \"right\""}};
+  for (const auto& [options, text] : mistakes) {
+    auto all = steps;
+    all.insert(all.end(), options.begin(), options.end());
+    EXPECT_THAT(error(valid, all), HasSubstr(text));
+  }
+}
+
 TEST_F(CaseFile, IncrementsAreCutOnlyWhereSomethingBreaks) {
   const std::string option = "Loading/Largest Break per Increment=40";
   EXPECT_EQ(*read(valid, {option}).loading.largest_break, 40);

@@ -217,6 +217,31 @@ class Released(GrowingCrack):
                 self.assert_same(self.outcome(), whole)
 
 
+class Started(GrowingCrack):
+    """Pulled open by forces, then held where it is, and pulled further by displacements; in another case cut."""
+
+    CASE = changed(GrowingCrack.CASE, {
+        "Boundary Conditions/Body Force/Rate": [0.0, -0.02],
+        "Boundary Conditions/Displacements/grip": {"Group": "upper", "Component": "x"},
+        "Loading/Steps": {
+            "pull": {"Increments": 6, "Conditions": ["pull down", "pull up", "Body Force"], "Values": [14.0, 14.0, 4.0]},
+            "hold": {"Increments": 4, "Started": ["grip"], "Conditions": ["Body Force"], "Values": [0.0]},
+            "further": {"Increments": 6, "Conditions": ["pull down", "pull up"], "Values": [17.0, 17.0]}}})
+
+    def test_on_as_many_ranks_it_ends_with_the_same_bits(self):
+        for ranks, stops, options in [(1, [5, 6, 8, 12], []), (2, [7], settings("Loading/Largest Break per Increment=40")), (4, [9], [])]:
+            self.run_until(INCREMENTS, *EVERY, *options, ranks=ranks)
+            whole = self.outcome()
+            rows = whole[0]
+            self.assertGreater(int(rows[-1]["broken_bonds"]), 100)
+            held = [float(row["displacement_upper_x"]) for row in rows if float(row["load_factor"]) > 6]
+            self.assertGreater(abs(held[0]), 1e-3)
+            numpy.testing.assert_allclose(held, held[0], rtol=1e-9)
+            for stop in stops:
+                with self.subTest(ranks=ranks, stop=stop):
+                    self.assert_continues(whole, stop, *EVERY, *options, ranks=ranks, end=INCREMENTS)
+
+
 class Cut(GrowingCrack):
     """Increments that break more than 25 bonds are taken back and repeated with half the load."""
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/fracture_body.hpp"
 
 namespace perimorph::tests {
@@ -227,6 +229,91 @@ TEST(LoadSteps, ACrackGrowsWhenItsClampLetsGoAndNoEnergyComesFromNothing) {
   EXPECT_GT(released.broken, 20);
   EXPECT_LT(released.energies.external_work, clamped.energies.external_work);
   EXPECT_GT(released.energies.external_work, released.energies.elastic + released.energies.dissipated);
+}
+
+// ---- supports that begin where nodes then are ----
+
+/// Pulled by a traction up to increment 2; then its grip holds it and goes on, and the traction ends.
+template <int dim>
+SpecimenIn<dim> gripped(const Amplitude& further, DiscontinuousElements discontinuous) {
+  SpecimenIn<dim> specimen{{}, dim == 2 ? 2.5 : 1.5, 0.3};
+  if constexpr (dim == 2) {
+    specimen.whole = grid({12, 10, 12., 10., Point2::Zero(), 0.1});
+  } else {
+    specimen.whole = brick({4, 4, 3, 0.1});
+    for (const auto& side : specimen.whole.boundary) {
+      const auto corners = mesh::corner_points(specimen.whole, side);
+      const bool is_top = std::all_of(corners.begin(), corners.end(), [](const Point3& x) { return x[1] == 4.; });
+      if (is_top) specimen.whole.side_sets["top"].push_back(side);
+    }
+  }
+  specimen.seeds = {Zone<dim>::everything()};
+  specimen.discontinuous = discontinuous;
+  specimen.tolerance = 1e-11;
+  specimen.is_proportional = false;
+  for (int c = 0; c < dim; ++c) specimen.displacements.push_back({"hold", "bottom", c, {0., 0.}});
+  specimen.displacements.push_back({"grip", "top", 1, {0.02, 0., &further, 1e9, 2.}});
+  specimen.tractions = {{"top", {base::Point<dim>::Unit(1), base::Point<dim>::Zero(), nullptr, 2.}}};
+  return specimen;
+}
+
+template <int dim>
+void expect_to_go_on_from_where_it_is(DiscontinuousElements discontinuous) {
+  const Amplitude further({{0., 0.}, {3., 0.}, {5., 1.}});
+  SpecimenBodyIn<dim> test(gripped<dim>(further, discontinuous));
+  test.advance(1.);
+  test.advance(2.);
+  const auto pulled = test.body.displacement();
+  const std::vector<double> before(pulled.begin(), pulled.end());
+  const auto energy = test.body.energies();
+
+  test.advance(3.);
+
+  const auto held = test.body.displacement();
+  ASSERT_EQ(static_cast<std::size_t>(held.size()), before.size());
+  for (std::size_t dof = 0; dof < before.size(); ++dof) EXPECT_NEAR(held[dof], before[dof], 1e-9);
+  EXPECT_NEAR(test.body.energies().elastic, energy.elastic, 1e-8 * energy.elastic);
+  EXPECT_NEAR(test.body.energies().external_work, energy.external_work, 1e-8 * energy.elastic);
+
+  test.advance(4.);
+  test.advance(5.);
+
+  const auto& dofs = test.body.topology().dofs();
+  const auto& top = test.body.mesh().node_sets.at("top");
+  for (int n = 0; n < dofs.n_owned_nodes(); ++n) {
+    if (!std::binary_search(top.begin(), top.end(), dofs.reference_node(n))) continue;
+    EXPECT_NEAR(test.body.displacement()[n * dim + 1], before[n * dim + 1] + 0.02, 1e-9);
+  }
+  EXPECT_NEAR(test.body.energies().external_work, test.body.energies().elastic, 1e-7 * energy.elastic);
+  EXPECT_GT(test.body.energies().elastic, energy.elastic);
+}
+
+TEST(SupportsThatBeginLater, GoOnFromWhereTheNodesAre) {
+  expect_to_go_on_from_where_it_is<2>(DiscontinuousElements::on_damage);
+}
+TEST(SupportsThatBeginLater, GoOnFromWhereEachNodeIsThatHasParted) {
+  expect_to_go_on_from_where_it_is<2>(DiscontinuousElements::whole_zone);
+}
+TEST(SupportsThatBeginLater, GoOnFromWhereTheNodesAreIn3D) {
+  expect_to_go_on_from_where_it_is<3>(DiscontinuousElements::whole_zone);
+}
+
+TEST(SupportsThatBeginLater, MayTakeOverFromOthers) {
+  const Amplitude pull({{0., 0.}, {2., 2.}}), back({{0., 0.}, {2., 0.}, {4., -2.}});
+  auto specimen = held(grid({10, 10, 10., 10., Point2::Zero(), 0.1}));
+  specimen.seeds = {Zone<2>::ball({5., 5.}, 3., 6.)};
+  specimen.displacements.push_back({"pull", "top", 1, {0.01, 0., &pull, 2.}});
+  specimen.displacements.push_back({"back", "top", 1, {0.01, 0., &back, 1e9, 2.}});
+  SpecimenBody test(specimen);
+  test.advance(2.);
+  const double pulled = test.body.energies().elastic;
+  test.advance(3.);
+  EXPECT_NEAR(test.body.energies().elastic, 0.25 * pulled, 1e-7 * pulled);
+  test.advance(4.);
+  EXPECT_NEAR(test.body.energies().elastic, 0., 1e-9 * pulled);
+
+  specimen.displacements[2].value.end = 3.;
+  EXPECT_THROW(SpecimenBody{specimen}, base::UserError);
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ def value_of(kind, text):
 
 class Condition:
     """A prescribed displacement, traction, pressure, temperature or body force. values: before the first increment and at the end
-    of each stage, (stages + 1, 1 or dimensions); largest: in each stage; n_stages: before it is released. Where a measure
+    of each stage, (stages + 1, 1 or dimensions); largest: in each stage; first_stage: with which it
+    begins; n_stages: before it is released. Where a measure
     decides on the load, values are those without it and at a load factor of 1."""
 
     def __init__(self, kind, name, entry, n_dimensions):
@@ -42,7 +43,7 @@ class Condition:
         self.profile = [entry[key] for key in ("Direction", "Positions", "Factors") if key in entry] if kind == "Temperatures" else []
         n_values = 1 if kind in ("Displacements", "Pressures", "Temperatures") else n_dimensions
         self.values, self.largest = (entry[key].reshape(-1, n_values) for key in ("Values", "Largest"))
-        self.n_stages, self.n_dimensions = entry["Stages"], n_dimensions
+        self.first_stage, self.n_stages, self.n_dimensions = entry["First Stage"], entry["Stages"], n_dimensions
 
     @property
     def symbol(self):
@@ -78,8 +79,8 @@ class Condition:
         return self.kind == "Displacements" and not self.value(stage).any()
 
     def is_idle(self, stage):
-        """Whether it does nothing in a stage: it is released, or a load that is zero all through it."""
-        return stage >= self.n_stages or (self.kind != "Displacements" and not self.value(stage).any())
+        """Whether it does nothing in a stage: it has not begun, is released, or a load that is zero all through it."""
+        return not self.first_stage <= stage < self.n_stages or (self.kind != "Displacements" and not self.value(stage).any())
 
     def direction(self, stage):
         """Where it acts in a stage, of length 1; None for pressures, which follow the normal, rotations and temperatures."""
@@ -90,6 +91,8 @@ class Condition:
 
     def text(self, stage, follows_measure):
         """Its value at the end of a stage, and the largest in it where that lies beyond both ends; and its direction."""
+        if stage < self.first_stage:
+            return "not yet"
         if stage >= self.n_stages:
             return "released"
         along = "" if self.along is None else f" along {numbers_text(self.along)}"

@@ -95,7 +95,9 @@ class Conditions {
     one.set("Values", values_at(factors.at_ends, rate, constant));
     one.set("Largest", values_at(factors.largest, rate, constant));
     const auto stages = stages_of(loading_);
-    const double end = cases::end_of(name, loading_.steps);
+    const double begin = cases::begin_of(name, loading_.steps), end = cases::end_of(name, loading_.steps);
+    one.set("First Stage", static_cast<int>(std::count_if(stages.begin(), stages.end(),
+                                                          [&](const Stage& stage) { return stage.first <= begin; })));
     one.set("Stages", static_cast<int>(std::count_if(stages.begin(), stages.end(),
                                                      [&](const Stage& stage) { return stage.first <= end; })));
     return one;

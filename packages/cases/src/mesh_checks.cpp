@@ -105,7 +105,11 @@ class Checks {
   // ---- contradictions ----
 
   void check_contradictions() {
-    const auto conditions = normalized(input_.boundary_conditions.displacements);
+    auto conditions = normalized(input_.boundary_conditions.displacements);
+    for (auto& one : conditions) {
+      one.value.begin = begin_of(one.name, input_.loading.steps);
+      one.value.end = end_of(one.name, input_.loading.steps);
+    }
     std::map<std::pair<int, int>, std::vector<int>> nodes_of_pair;
     for (const auto& [first, second, node] :
          discretization::contradictions(mesh_, conditions, input_.boundary_conditions.rigid_groups)) {

@@ -410,8 +410,10 @@ template <int dim>
 void check_free_motions(const Case& input, const mesh::Mesh<dim>& whole, const std::vector<mesh::SymmetryPlane>& planes,
                         input::Mistakes& mistakes) {
   const auto& conditions = input.boundary_conditions;
-  const auto lines =
-      FreeMotions<dim>(whole, conditions.rigid_groups).describe(normalized(conditions.displacements), planes);
+  auto displacements = normalized(conditions.displacements);
+  const auto is_later = [&](const auto& one) { return std::isfinite(begin_of(one.name, input.loading.steps)); };
+  displacements.erase(std::remove_if(displacements.begin(), displacements.end(), is_later), displacements.end());
+  const auto lines = FreeMotions<dim>(whole, conditions.rigid_groups).describe(displacements, planes);
   const auto add = [&](const std::string& what) {
     mistakes.add(input::line_of(input.lines, displacements_path), displacements_path, what);
   };

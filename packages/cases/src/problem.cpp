@@ -29,7 +29,7 @@ class Amplitudes {
 
   template <class T>
   discretization::Ramp<T> ramp(const std::string& condition, const T& rate, const T& constant) {
-    return {rate, constant, of(condition, rate), end_of(condition, steps_)};
+    return {rate, constant, of(condition, rate), end_of(condition, steps_), begin_of(condition, steps_)};
   }
 
   template <int dim>
@@ -200,7 +200,8 @@ model::Problem<dim> make_problem(const Case& input) {
   problem.temperature_changes = make_temperatures<dim>(input.boundary_conditions.temperatures, amplitudes);
   const auto is_common = [&](const auto& amplitude) { return *amplitude == *all.front(); };
   const auto& steps = input.loading.steps;
-  const bool all_stay = std::all_of(steps.begin(), steps.end(), [](const Step& step) { return step.released.empty(); });
+  const bool all_stay = std::all_of(steps.begin(), steps.end(),
+                                    [](const Step& step) { return step.released.empty() && step.started.empty(); });
   if (input.boundary_conditions.are_proportional() && all_stay && !all.empty() &&
       std::all_of(all.begin(), all.end(), is_common)) {
     problem.is_proportional = true;

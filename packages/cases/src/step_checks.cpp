@@ -18,10 +18,12 @@ namespace {
 
 using input::Values;
 
-/// A condition that steps may name: whether its rate is not zero, and whether it does anything.
+/// A condition that steps may name: whether its rate and its constant are not zero, and whether it is a displacement.
 struct Condition {
   Values section;
-  bool has_rate, has_effect;
+  bool has_rate, has_constant, holds;
+
+  bool has_effect() const { return holds || has_rate || has_constant; }
 };
 using Conditions = std::multimap<std::string, Condition>;  // by name; several may have one
 
@@ -38,8 +40,7 @@ Conditions conditions_of(const Values& root) {
   const Values all = root.sub("Boundary Conditions");
   Conditions found;
   const auto add = [&](const Values& one, bool holds) {
-    const bool has_rate = is_nonzero(one, "Rate");
-    found.emplace(name_of(one), Condition{one, has_rate, holds || has_rate || is_nonzero(one, "Constant")});
+    found.emplace(name_of(one), Condition{one, is_nonzero(one, "Rate"), is_nonzero(one, "Constant"), holds});
   };
   for (const auto& one : all.subs("Displacements")) add(one, true);
   for (const char* kind : {"Tractions", "Pressures", "Temperatures"}) {
@@ -77,7 +78,7 @@ void check_released(const Values& step, bool is_first, const Conditions& conditi
   }
   for (const auto& name : *names) {
     const auto trouble = trouble_with(name, conditions, "that hold or load the body",
-                                      [](const Condition& condition) { return condition.has_effect; });
+                                      [](const Condition& condition) { return condition.has_effect(); });
     if (!trouble.empty()) step.mistake("Released", trouble);
     const auto [first, is_new] = released.emplace(name, step.path());
     if (is_new) continue;
@@ -85,10 +86,57 @@ void check_released(const Values& step, bool is_first, const Conditions& conditi
   }
 }
 
+/// Conditions that begin with a later step than the one that is looked at.
+std::set<std::string> started_in(const std::vector<Values>& steps) {
+  std::set<std::string> all;
+  for (const auto& step : steps) {
+    if (const auto* names = step.texts("Started")) all.insert(names->begin(), names->end());
+  }
+  return all;
+}
+
+/// @param rigid groups that move as one
+/// @param waiting conditions that later steps start, from which those of this one are taken
+void check_started(const Values& step, bool is_first, const Conditions& conditions, const std::set<std::string>& rigid,
+                   const Released& released, std::set<std::string>& waiting) {
+  const auto* names = step.texts("Started");
+  if (names == nullptr) return;
+  if (is_first) {
+    step.mistake("Started",
+                 "found in the first step; allowed is it in later ones: conditions hold from the first anyway");
+  }
+  for (const auto& name : *names) {
+    auto trouble = trouble_with(name, conditions, "that hold the body or have a \"Constant\"",
+                                [](const Condition& condition) { return condition.holds || condition.has_constant; });
+    if (trouble.empty() && waiting.erase(name) == 0) {
+      trouble = fmt::format("found {} again; allowed is each once", input::in_quotes(name));
+    }
+    if (trouble.empty() && released.count(name) != 0) {
+      trouble = fmt::format("found {}, which {} releases", input::in_quotes(name), released.at(name));
+    }
+    if (trouble.empty()) {
+      const auto& section = conditions.find(name)->second.section;
+      const auto* group = section.text("Group");
+      if (section.given("Direction") && conditions.find(name)->second.holds) {
+        trouble = fmt::format("found {}, which has a \"Direction\"; allowed are displacements along an axis",
+                              input::in_quotes(name));
+      } else if (conditions.find(name)->second.holds && group != nullptr && rigid.count(*group) != 0) {
+        trouble = fmt::format("found {}, which moves the rigid group {}; allowed are displacements of nodes",
+                              input::in_quotes(name), input::in_quotes(*group));
+      }
+    }
+    if (!trouble.empty()) step.mistake("Started", trouble);
+  }
+}
+
 /// All that a step names, and each once.
-std::set<std::string> check_names(const Values& step, const Conditions& conditions, const Released& released) {
+std::set<std::string> check_names(const Values& step, const Conditions& conditions, const Released& released,
+                                  const std::set<std::string>& waiting) {
   std::set<std::string> seen;
   const auto trouble_of = [&](const std::string& name) {
+    if (waiting.count(name) != 0) {
+      return fmt::format("found {}, which a later step starts", input::in_quotes(name));
+    }
     if (!seen.insert(name).second) return fmt::format("found {} twice; allowed is each once", input::in_quotes(name));
     const auto ended = released.find(name);
     if (ended != released.end()) {
@@ -110,9 +158,10 @@ std::set<std::string> check_names(const Values& step, const Conditions& conditio
 
 void check_values(const Values& step) {
   const bool has_names = step.given("Conditions"), has_values = step.given("Values");
-  if (!has_names && step.subs("Tables").empty() && !step.given("Released")) {
-    step.mistake("Conditions",
-                 "missing; needed is a list of conditions such as {press}, one in \"Tables\", or \"Released\"");
+  if (!has_names && step.subs("Tables").empty() && !step.given("Released") && !step.given("Started")) {
+    step.mistake(
+        "Conditions",
+        "missing; needed is a list of conditions such as {press}, one in \"Tables\", \"Released\" or \"Started\"");
   }
   if (has_names && !has_values) step.mistake("Values", "missing; needed is one number for each of \"Conditions\"");
   if (has_values && !has_names) step.mistake("Values", "found without \"Conditions\", to which they would belong");
@@ -213,10 +262,16 @@ void check_steps(const Values& root, const std::string& folder) {
   std::set<std::string> named;
   std::map<std::string, double> reached;
   Released released;
+  std::set<std::string> rigid, waiting = started_in(steps);
+  for (const auto& group : root.sub("Boundary Conditions").subs("Rigid Groups")) {
+    if (const auto* name = group.text("Group")) rigid.insert(*name);
+  }
   for (const auto& step : steps) {
+    const bool is_first = step.path() == steps.front().path();
     check_values(step);
-    check_released(step, step.path() == steps.front().path(), conditions, released);
-    named.merge(check_names(step, conditions, released));
+    check_released(step, is_first, conditions, released);
+    check_started(step, is_first, conditions, rigid, released, waiting);
+    named.merge(check_names(step, conditions, released, waiting));
     check_courses(step, folder, reached);
   }
   for (const auto& [name, condition] : conditions) {

@@ -1,6 +1,7 @@
 #include "perimorph/cases/steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -82,6 +83,10 @@ void declare(const input::Section& section, Step& step) {
   section.optional("Released", step.released, {"prop"}, names("a list of conditions such as {prop}"),
                    "Conditions that end when this step begins, and for good. What a displacement prescribed is free "
                    "from the first increment on, and its reaction gone; of a load its Constant is gone, too.");
+  section.optional(
+      "Started", step.started, {"grip"}, names("a list of conditions such as {grip}"),
+      "Conditions that begin with this step, and are not there before. A displacement then counts from where "
+      "the nodes are: without a Rate it holds them there.");
   section.entries("Tables", step.tables, declare,
                   "Conditions that follow a table from a file in this step, each a list with the condition's name.",
                   "The table of one condition.");
@@ -113,13 +118,28 @@ std::shared_ptr<const Amplitude> amplitude_of(const std::string& condition, cons
   return std::make_shared<const Amplitude>(std::move(course).amplitude());
 }
 
-double end_of(const std::string& condition, const std::vector<Step>& steps) {
+namespace {
+
+/// The increment after which the first step begins that has a condition in a list of its own; none: infinity.
+double begin_of_step(const std::string& condition, const std::vector<Step>& steps,
+                     std::vector<std::string> Step::*list) {
   double begin = 0.;
   for (const Step& step : steps) {
-    if (std::find(step.released.begin(), step.released.end(), condition) != step.released.end()) return begin;
+    if (std::find((step.*list).begin(), (step.*list).end(), condition) != (step.*list).end()) return begin;
     begin += step.all_increments();
   }
   return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double end_of(const std::string& condition, const std::vector<Step>& steps) {
+  return begin_of_step(condition, steps, &Step::released);
+}
+
+double begin_of(const std::string& condition, const std::vector<Step>& steps) {
+  const double begin = begin_of_step(condition, steps, &Step::started);
+  return std::isfinite(begin) ? begin : -begin;
 }
 
 }  // namespace perimorph::cases

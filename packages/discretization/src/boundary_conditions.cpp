@@ -14,8 +14,7 @@ using base::Point;
 template <int dim>
 Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
                           const std::vector<PrescribedComponent>& conditions, const std::vector<RigidGroup>& groups)
-    : fixed_(mesh.n_nodes() * dim, 0), values_(mesh.n_nodes() * dim, Ramp<double>{0., 0.}) {
-  groups_ = group_motions(comm, mesh, groups, conditions);
+    : mesh_(mesh), begun_(mesh.n_nodes() * dim, 0), groups_(group_motions(comm, mesh, groups, conditions)) {
   base::on_all_ranks(comm, [&] {
     for (const auto& [first, second, node] : contradictions(mesh, conditions, groups)) {
       throw base::UserError(
@@ -23,42 +22,52 @@ Dirichlet<dim>::Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh,
                       conditions[first].name, conditions[second].name, name_of_displacement(conditions[second]),
                       fmt::join(mesh.coordinates[node], ", ")));
     }
-    auto on_nodes = conditions;
-    on_nodes.erase(std::remove_if(on_nodes.begin(), on_nodes.end(),
-                                  [&](const auto& condition) { return moved_by(condition, groups) != nullptr; }),
-                   on_nodes.end());
-    for (const auto& condition : on_nodes) prescribe(mesh, condition);
-    gather_oblique(mesh, on_nodes);
     for (const auto& condition : conditions) {
-      if (std::isfinite(condition.value.end)) ends_.push_back(condition.value.end);
+      if (moved_by(condition, groups) == nullptr) {
+        on_nodes_.push_back(condition);
+      } else {
+        of_groups_.push_back(condition.value);
+      }
     }
+    follow_conditions();
   });
 }
 
+/// What holds at the present load factor.
 template <int dim>
-void Dirichlet<dim>::prescribe(const mesh::Mesh<dim>& mesh, const PrescribedComponent& condition) {
+void Dirichlet<dim>::follow_conditions() {
+  fixed_.assign(mesh_.n_nodes() * dim, 0);
+  values_.assign(mesh_.n_nodes() * dim, Ramp<double>{0., 0.});
+  oblique_.clear();
+  for (const auto& condition : on_nodes_) {
+    if (condition.value.holds_at(load_factor_)) prescribe(condition);
+  }
+  gather_oblique();
+}
+
+template <int dim>
+void Dirichlet<dim>::prescribe(const PrescribedComponent& condition) {
   if (!condition.direction.empty()) return;
   PERIMORPH_ASSERT(condition.component >= 0 && condition.component < dim, "\"{}\" prescribes component {}",
                    condition.name, condition.component);
-  for (const int node : mesh.node_sets.at(condition.node_set)) {
+  for (const int node : mesh_.node_sets.at(condition.node_set)) {
     const int dof = node * dim + condition.component;
-    const double end = fixed_[dof] ? std::max(values_[dof].end, condition.value.end) : condition.value.end;
     fixed_[dof] = 1;
     values_[dof] = condition.value;
-    values_[dof].end = end;
   }
 }
 
 /// What else is prescribed at those nodes counts among it.
 template <int dim>
-void Dirichlet<dim>::gather_oblique(const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions) {
-  for (const auto& condition : conditions) {
-    if (condition.direction.empty()) continue;
-    for (const int node : mesh.node_sets.at(condition.node_set)) oblique_[node];
+void Dirichlet<dim>::gather_oblique() {
+  for (const auto& condition : on_nodes_) {
+    if (condition.direction.empty() || !condition.value.holds_at(load_factor_)) continue;
+    for (const int node : mesh_.node_sets.at(condition.node_set)) oblique_[node];
   }
-  for (const auto& condition : conditions) {
-    if (oblique_.empty()) return;
-    for (const int node : mesh.node_sets.at(condition.node_set)) {
+  if (oblique_.empty()) return;
+  for (const auto& condition : on_nodes_) {
+    if (!condition.value.holds_at(load_factor_)) continue;
+    for (const int node : mesh_.node_sets.at(condition.node_set)) {
       const auto found = oblique_.find(node);
       if (found != oblique_.end()) found->second.push_back({direction_of<dim>(condition), condition.value});
     }
@@ -71,7 +80,19 @@ void Dirichlet<dim>::gather_oblique(const mesh::Mesh<dim>& mesh, const std::vect
 template <int dim>
 bool Dirichlet<dim>::apply_load(double load_factor) {
   const double before = std::exchange(load_factor_, load_factor);
-  return std::any_of(ends_.begin(), ends_.end(), [&](double end) { return (before <= end) != (load_factor <= end); });
+  const auto changes = [&](const Ramp<double>& value) { return value.holds_at(before) != value.holds_at(load_factor); };
+  if (std::exchange(has_begun_, false)) std::fill(begun_.begin(), begun_.end(), 0);
+  bool are_others = std::any_of(of_groups_.begin(), of_groups_.end(), changes);
+  for (const auto& condition : on_nodes_) {
+    if (!changes(condition.value)) continue;
+    are_others = true;
+    if (!condition.value.holds_at(load_factor) || !std::isfinite(condition.value.begin)) continue;
+    PERIMORPH_ASSERT(condition.direction.empty(), "\"{}\" begins along a direction", condition.name);
+    has_begun_ = true;
+    for (const int node : mesh_.node_sets.at(condition.node_set)) begun_[node * dim + condition.component] = 1;
+  }
+  if (are_others) follow_conditions();
+  return are_others;
 }
 
 namespace {

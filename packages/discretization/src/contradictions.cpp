@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "perimorph/discretization/boundary_conditions.hpp"
 
@@ -85,17 +87,25 @@ template <int dim>
 std::vector<Contradiction> contradictions(const mesh::Mesh<dim>& mesh,
                                           const std::vector<PrescribedComponent>& conditions,
                                           const std::vector<RigidGroup>& groups) {
-  std::vector<Contradiction> all;
-  std::map<int, PrescribedAtNode<dim>> nodes;
-  for (int i = 0; i < static_cast<int>(conditions.size()); ++i) {
-    const auto set = mesh.node_sets.find(conditions[i].node_set);
-    if (set == mesh.node_sets.end() || moved_by(conditions[i], groups) != nullptr) continue;
-    for (const int node : set->second) {
-      const int first = nodes[node].contradicted_by(conditions, i);
-      if (first >= 0) all.push_back({first, i, node});
+  std::set<double> beginnings;
+  for (const auto& condition : conditions) beginnings.insert(condition.value.begin);
+  std::set<std::tuple<int, int, int>> all;  // second, first, node
+  for (const double begin : beginnings) {
+    std::map<int, PrescribedAtNode<dim>> nodes;
+    for (int i = 0; i < static_cast<int>(conditions.size()); ++i) {
+      const auto& value = conditions[i].value;
+      const auto set = mesh.node_sets.find(conditions[i].node_set);
+      const bool holds = value.begin <= begin && value.end > begin;  // just after it
+      if (!holds || set == mesh.node_sets.end() || moved_by(conditions[i], groups) != nullptr) continue;
+      for (const int node : set->second) {
+        const int first = nodes[node].contradicted_by(conditions, i);
+        if (first >= 0) all.emplace(i, first, node);
+      }
     }
   }
-  return all;
+  std::vector<Contradiction> listed;
+  for (const auto& [second, first, node] : all) listed.push_back({first, second, node});
+  return listed;
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                                    \

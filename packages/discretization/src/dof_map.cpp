@@ -132,9 +132,8 @@ void DofMap<dim>::add_copies(const std::vector<GlobalId>& global_at_corner) {
 template <int dim>
 void DofMap<dim>::add_images() {
   std::map<std::pair<int, unsigned>, int> known;  // by node and negative signs
-  for (std::size_t i = 0; i < mesh_.images.size(); ++i) {
-    const auto& [source, signs] = mesh_.images[i];
-    const int image = mesh_.n_real_elements() + static_cast<int>(i);
+  for (int image = mesh_.n_real_elements(); image < mesh_.n_elements(); ++image) {
+    const auto& [source, signs] = mesh_.image(image);
     unsigned negative = 0;
     for (int c = 0; c < dim; ++c) negative |= static_cast<unsigned>(signs[c] < 0.) << c;
     for (int k = 0; k < mesh_.n_corners(image); ++k) {

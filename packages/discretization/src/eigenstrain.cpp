@@ -33,8 +33,8 @@ std::vector<double> expansion_per_degree(const mesh::Mesh<dim>& mesh, const elem
       at_points[p] = factor * expansion[e];
     }
   }
-  for (std::size_t i = 0; i < mesh.images.size(); ++i) {
-    const int source = mesh.images[i].element, image = mesh.n_real_elements() + static_cast<int>(i);
+  for (int image = mesh.n_real_elements(); image < mesh.n_elements(); ++image) {
+    const int source = mesh.image(image).element;
     std::copy_n(at_points.begin() + points.first(source), points.count(source),
                 at_points.begin() + points.first(image));
   }

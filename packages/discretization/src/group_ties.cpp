@@ -66,7 +66,7 @@ typename GroupTies<dim>::Tie GroupTies<dim>::make(const DofMap<dim>& dofs, const
   const auto n_rows = static_cast<Index>(tie.dofs.size());
   std::array<const Ramp<double>*, GroupMotion<dim>::n_motions> prescribed{};
   for (const auto& [motion, value] : group.prescribed) {
-    if (load_factor <= value.end) prescribed[motion] = &value;
+    if (value.holds_at(load_factor)) prescribed[motion] = &value;
   }
   MatrixXd free(n_rows, 0);
   tie.prescribed.resize(n_rows, 0);

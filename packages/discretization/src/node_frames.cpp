@@ -55,7 +55,7 @@ typename NodeFrames<dim>::Frame NodeFrames<dim>::make(int node,
   for (const auto& [direction, value] : along) {
     const Point<dim> rest = rest_of(direction, frame.axes, n_axes);
     const double length = rest.norm();
-    if (load_factor > value.end || length < independent) continue;
+    if (!value.holds_at(load_factor) || length < independent) continue;
     Sum sum = {{1. / length, value}};
     for (int axis = 0; axis < n_axes; ++axis) {
       const double share = direction.dot(frame.axes.col(axis));

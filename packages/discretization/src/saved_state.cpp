@@ -48,6 +48,20 @@ GlobalId visit_held(const std::vector<Record>& records, const Topology<dim>& top
   return n_own;
 }
 
+/// What owned elements have at their corners, out of what nodes have. Local.
+template <int dim>
+std::vector<double> of_elements(const std::vector<double>& at_nodes, const Topology<dim>& topology) {
+  const auto& mesh = topology.mesh();
+  std::vector<double> all(mesh.n_owned_elements * stride<dim>, 0.);
+  for (int e = 0; e < mesh.n_owned_elements; ++e) {
+    double* values = all.data() + e * stride<dim>;
+    for (int k = 0; k < mesh.n_corners(e); ++k) {
+      std::copy_n(at_nodes.data() + topology.dofs().nodes_of(e)[k] * dim, dim, values + k * dim);
+    }
+  }
+  return all;
+}
+
 void check_found(GlobalId n_found, GlobalId n, const char* what) {
   if (n_found == n) return;
   throw base::UserError(fmt::format("of {} {} bonds only {} are bonds of this body", n, what, n_found));
@@ -59,7 +73,7 @@ template <int dim>
 SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
   PERIMORPH_ASSERT(state.displacement.size() == static_cast<std::size_t>(topology.dofs().n_nodes()) * dim,
                    "{} displacements of {} nodes", state.displacement.size(), topology.dofs().n_nodes());
-  SavedState<dim> saved{state, {}, {}, {}, {}};
+  SavedState<dim> saved{state, {}, {}, {}, {}, {}};
   const auto& mesh = topology.mesh();
   const auto& bonds = topology.bonds();
   for (const auto& [call, broken] : state.broken) {
@@ -89,13 +103,8 @@ SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
     std::copy_n(slip.distance.data(), dim, saved.slips.back().values.begin());
     std::copy_n(slip.friction.data(), dim, saved.slips.back().values.begin() + dim);
   }
-  saved.displacement.assign(mesh.n_owned_elements * stride<dim>, 0.);
-  for (int e = 0; e < mesh.n_owned_elements; ++e) {
-    double* values = saved.displacement.data() + e * stride<dim>;
-    for (int k = 0; k < mesh.n_corners(e); ++k) {
-      std::copy_n(state.displacement.data() + topology.dofs().nodes_of(e)[k] * dim, dim, values + k * dim);
-    }
-  }
+  saved.displacement = of_elements(state.displacement, topology);
+  if (!state.starts.empty()) saved.starts = of_elements(state.starts, topology);
   return saved;
 }
 
@@ -133,14 +142,14 @@ bonds::Slips<dim> find_slips(const SavedState<dim>& saved, const Topology<dim>& 
 }
 
 template <int dim>
-std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topology<dim>& topology) {
+std::vector<double> nodal_displacement(const std::vector<double>& saved, const Topology<dim>& topology) {
   const auto& dofs = topology.dofs();
   const int n_elements = topology.mesh().n_real_elements();
-  PERIMORPH_ASSERT(saved.displacement.size() == n_elements * stride<dim>, "{} displacements of {} elements",
-                   saved.displacement.size(), n_elements);
+  PERIMORPH_ASSERT(saved.size() == n_elements * stride<dim>, "{} displacements of {} elements", saved.size(),
+                   n_elements);
   std::vector<double> u(static_cast<std::size_t>(dofs.n_nodes()) * dim, 0.);
   for (int e = 0; e < n_elements; ++e) {
-    const double* values = saved.displacement.data() + e * stride<dim>;
+    const double* values = saved.data() + e * stride<dim>;
     for (int k = 0; k < topology.mesh().n_corners(e); ++k) {
       std::copy_n(values + k * dim, dim, u.data() + dofs.nodes_of(e)[k] * dim);
     }
@@ -154,7 +163,7 @@ std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topol
   template BrokenByCall find_broken(const base::Comm&, const SavedState<dim>&, const Topology<dim>&);                \
   template bonds::SofteningHistories find_softened(const base::Comm&, const SavedState<dim>&, const Topology<dim>&); \
   template bonds::Slips<dim> find_slips(const SavedState<dim>&, const Topology<dim>&);                               \
-  template std::vector<double> nodal_displacement(const SavedState<dim>&, const Topology<dim>&);
+  template std::vector<double> nodal_displacement(const std::vector<double>&, const Topology<dim>&);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

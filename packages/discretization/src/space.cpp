@@ -4,20 +4,24 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::discretization {
 
 template <int dim>
-Space<dim>::Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet)
+Space<dim>::Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet, std::vector<double> starts)
     : dofs_(dofs),
       dirichlet_(dirichlet),
+      starts_(std::move(starts)),
       frames_(dofs, dirichlet),
       groups_(dofs, dirichlet.groups(), dirichlet.load_factor()),
       is_constrained_(static_cast<std::size_t>(dofs.n_nodes()) * dim, 0),
       owned_(Teuchos::rcp(new Vector(dofs.owned_dofs()))),
       all_(Teuchos::rcp(new Vector(dofs.all_dofs()))) {
+  PERIMORPH_ASSERT(starts_.empty() || starts_.size() == n_local(), "{} starts for {} degrees of freedom",
+                   starts_.size(), n_local());
   for (int dof = 0; dof < dofs.n_real_nodes() * dim; ++dof) {
     if (dirichlet.prescribes(dofs.reference_node(dof / dim), dof % dim)) prescribed_.push_back(dof);
   }
@@ -48,7 +52,7 @@ void Space<dim>::expand(base::Field u, double load_factor) const {
   all_->doImport(*owned_, *dofs_.import(), Tpetra::INSERT);
   const auto all = all_->getLocalViewHost(Tpetra::Access::ReadOnly);
   std::copy_n(all.data(), all.extent(0), u.getRawPtr());
-  for (const int dof : along_axes_) u[dof] = ramp(dof).at(load_factor);
+  for (const int dof : along_axes_) u[dof] = ramp(dof).at(load_factor) + (starts_.empty() ? 0. : starts_[dof]);
   frames_.prescribe(u, load_factor);
   groups_.prescribe(u, load_factor);
   dofs_.complete_images(u);

@@ -18,7 +18,7 @@ MaterialPoints<dim>::MaterialPoints(const mesh::Mesh<dim>& mesh, int points_per_
       for (int k = 0; k < reference.n_corners; ++k)
         x += reference.shape[q](k) * mesh.coordinates[mesh.corners_of(e)[k]];
       const double determinant = jacobian(e, q).determinant();  // images have their corners in the same order
-      const double volume = reference.weights[q] * (e < mesh.n_real_elements() ? determinant : std::abs(determinant));
+      const double volume = reference.weights[q] * (mesh.is_image(e) ? std::abs(determinant) : determinant);
       PERIMORPH_ASSERT(volume > 0., "element {} has volume {} at point {}", mesh.element_ids[e], volume, q);
       positions_.push_back(x);
       weights_.push_back(volume);

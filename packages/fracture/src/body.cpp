@@ -109,25 +109,37 @@ bool Body<dim>::grow() {
 
 template <int dim>
 void Body<dim>::rebuild(bool has_grown) {
-  const bool lets_go = dirichlet_.apply_load(state_.load_factor);
+  const bool has_other_supports = dirichlet_.apply_load(state_.load_factor);
   {
     const auto timer = profile_.measure(Phase::adapt);
     const auto change = topology_.update(has_grown);
     state_.counts.dgfe_elements = topology_.n_discontinuous();
-    if (!change.models && !lets_go) return;
+    if (!change.models && !has_other_supports) return;
     state_.counts.topologies += change.models ? 1 : 0;
     system_.follow_morphing();
     if (change.numbering) move_to_new_numbering();
+    if (dirichlet_.has_begun() && state_.load_step != 0.) note_starts();
   }
-  if (lets_go) equilibrium_.linear_solver().forget();  // multigrid knows nothing of unknowns that were none
+  if (has_other_supports) equilibrium_.linear_solver().forget();  // multigrid knows nothing of unknowns that were none
   assemble();
   if (measure_ && state_.counts.topologies > 1) renew_forces();  // from which the work goes on
   state_.break_calls_before_topology = state_.break_calls;
 }
 
+/// Where the supports that have begun find their nodes.
+template <int dim>
+void Body<dim>::note_starts() {
+  const auto& dofs = topology_.dofs();
+  state_.starts.resize(state_.displacement.size(), 0.);
+  for (int dof = 0; dof < dofs.n_real_nodes() * dim; ++dof) {
+    if (dirichlet_.has_begun(dofs.reference_node(dof / dim), dof % dim)) state_.starts[dof] = state_.displacement[dof];
+  }
+}
+
 template <int dim>
 void Body<dim>::move_to_new_numbering() {
   state_.displacement = topology_.carried_over(state_.displacement);
+  if (!state_.starts.empty()) state_.starts = topology_.carried_over(state_.starts);
   work_.go_on_from(system_.moved(displacement()));
   state_.counts.unknowns = topology_.dofs().n_global_nodes() * dim;
   facing_sides_ = operators::facing_sides(mesh(), topology_.discontinuous());
@@ -136,7 +148,7 @@ void Body<dim>::move_to_new_numbering() {
 template <int dim>
 void Body<dim>::assemble() {
   const auto timer = profile_.measure(Phase::assemble);
-  auto source = system_.assemble();
+  auto source = system_.assemble(state_.starts);
   const auto& space = system_.space();
   const auto near_null_space = solvers::rigid_body_modes<dim>(*source.matrix, source.coordinates);
   space.turn(*near_null_space.modes);
@@ -334,7 +346,11 @@ void Body<dim>::restore(const discretization::SavedState<dim>& saved) {
   if (topology_.bonds().softens()) topology_.restore_softening(discretization::find_softened(*comm_, saved, topology_));
 
   static_cast<discretization::History<dim>&>(state_) = saved;
-  state_.displacement = discretization::nodal_displacement(saved, topology_);
+  state_.displacement = discretization::nodal_displacement(saved.displacement, topology_);
+  if (base::max(*comm_, static_cast<GlobalId>(!saved.starts.empty())) > 0) {
+    state_.starts = discretization::nodal_displacement(saved.starts, topology_);
+    assemble();
+  }
   forget_solves();
   renew_forces();
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace perimorph::mesh {
 
@@ -109,9 +110,8 @@ void mirror_boundary(Mesh<dim>& mesh) {
       boundary.end());
   std::vector<std::vector<int>> sides_of(mesh.n_real_elements());
   for (const auto& [element, side] : boundary) sides_of[element].push_back(side);
-  for (std::size_t i = 0; i < mesh.images.size(); ++i) {
-    const int element = mesh.n_real_elements() + static_cast<int>(i);
-    for (const int side : sides_of[mesh.images[i].element]) boundary.push_back({element, side});
+  for (int e = mesh.n_real_elements(); e < mesh.n_elements(); ++e) {
+    for (const int side : sides_of[mesh.image(e).element]) boundary.push_back({e, side});
   }
 }
 
@@ -145,7 +145,7 @@ template <int dim>
 void add_images(Mesh<dim>& mesh, std::vector<SymmetryPlane> planes, double width) {
   PERIMORPH_ASSERT(mesh.images.empty() && width >= 0., "{} images already, a width of {}", mesh.images.size(), width);
   if (planes.empty()) return;
-  mesh.symmetry_planes = std::move(planes);
+  std::swap(mesh.symmetry_planes, planes);
   const int n_real_elements = mesh.n_elements();
   for (unsigned code = 1; code < 1u << mesh.symmetry_planes.size(); ++code) {
     add_images_across(mesh, code, n_real_elements, (1. + tolerance) * width);

@@ -91,8 +91,8 @@ std::vector<int> MorphingField<dim>::add(const std::vector<Zone<dim>>& zones) {
     risen.push_back(e);
   }
   const auto n_real = static_cast<std::ptrdiff_t>(risen.size());
-  for (std::size_t i = 0; i < mesh_.images.size(); ++i) {
-    const int image = mesh_.n_real_elements() + static_cast<int>(i), source = mesh_.images[i].element;
+  for (int image = mesh_.n_real_elements(); image < mesh_.n_elements(); ++image) {
+    const int source = mesh_.image(image).element;
     if (!std::binary_search(risen.begin(), risen.begin() + n_real, source)) continue;
     std::copy_n(alpha_.begin() + points_.first(source), points_.count(source), alpha_.begin() + points_.first(image));
     carries_bonds_[image] = 1;

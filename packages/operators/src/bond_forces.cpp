@@ -55,8 +55,8 @@ void BondForces<dim>::make_packets() {
   const auto& bonds = model_.bonds;
   std::vector<char> has_bonds(model_.mesh.n_elements(), 0);
   for (int e = 0; e < model_.mesh.n_elements(); ++e) has_bonds[e] = !bonds.pairs_of(e).empty();
-  for (std::size_t i = 0; i < model_.mesh.images.size(); ++i) {  // whose dilatation is that of their elements
-    if (has_bonds[model_.mesh.n_real_elements() + i] != 0) has_bonds[model_.mesh.images[i].element] = 1;
+  for (int e = model_.mesh.n_real_elements(); e < model_.mesh.n_elements(); ++e) {
+    if (has_bonds[e] != 0) has_bonds[model_.mesh.image(e).element] = 1;  // whose dilatation it has
   }
   for (int e = 0; e < model_.mesh.n_elements(); ++e) {
     if (has_bonds[e] == 0) continue;
@@ -140,10 +140,10 @@ void BondForces<dim>::make_dilatation() {
     if (first_packet_[e] < 0) continue;
     for (int q = 0; q < model_.points.count(e); q += n_lanes) {
       for (int lane = q; lane < q + n_lanes; ++lane) {
-        if (e < mesh.n_real_elements()) {
-          ids.push_back(mesh.element_ids[e] * most_lanes + lane);
+        if (mesh.is_image(e)) {
+          twins.push_back(lane_of(mesh.image(e).element, lane));
         } else {
-          twins.push_back(lane_of(mesh.images[e - mesh.n_real_elements()].element, lane));
+          ids.push_back(mesh.element_ids[e] * most_lanes + lane);
         }
       }
     }

@@ -80,11 +80,11 @@ void CoupledSystem<dim>::make_matrices(const Supports<dim>& supports) {
 }
 
 template <int dim>
-typename CoupledSystem<dim>::PreconditionerSource CoupledSystem<dim>::assemble() {
+typename CoupledSystem<dim>::PreconditionerSource CoupledSystem<dim>::assemble(std::vector<double> starts) {
   const bool is_first = tangent_.is_null();
   const auto old_basis = basis_;
   has_forces_ = false;
-  space_ = std::make_unique<discretization::Space<dim>>(topology_.dofs(), dirichlet_);
+  space_ = std::make_unique<discretization::Space<dim>>(topology_.dofs(), dirichlet_, std::move(starts));
   const Supports<dim> supports(model(), *space_, topology_.discontinuous());
   make_terms(supports);
   tangent_ = Teuchos::rcp(new MatrixFreeTangent<dim>(*space_, terms_, supports.constraints));

@@ -90,14 +90,15 @@ struct PointRecord {
 template <int dim>
 std::vector<BondRecord> own_bonds(const Body<dim>& body) {
   const auto model = body.model();
-  const auto& [u, dilatational_stretch, contacts, eigenstrain] = body.system().at_points();
+  const auto& at_points = body.system().at_points();
+  const auto& u = at_points.displacement;
   std::vector<BondRecord> records;
   model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
     if (bond.first_element >= body.mesh().n_owned_elements) return;
     const double length = (bond.xi + u[bond.second_point] - u[bond.first_point]).norm();
     records.push_back({model.points.global_id(bond.first_element, bond.first_end),
                        model.points.global_id(bond.second_element, bond.second_end),
-                       length / bond.xi.norm() - 1. - bond.mean_of(eigenstrain),
+                       length / bond.xi.norm() - 1. - bond.mean_of(at_points.eigenstrain),
                        static_cast<signed char>(bond.is_broken)});
   });
   return records;

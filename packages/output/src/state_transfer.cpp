@@ -15,9 +15,9 @@ using discretization::SoftBond;
 
 namespace {
 
-constexpr const char* displacement_name = "displacement";
+constexpr const char *displacement_name = "displacement", *starts_name = "starts";
 
-/// All but the displacement, which each rank has a part of.
+/// All but displacements, which each rank has a part of.
 template <class DataSets, class State, class Flag>
 void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
   auto& counts = state.counts;
@@ -34,6 +34,16 @@ void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
   using Slip = typename decltype(state.slips)::value_type;
   sets.records("slips", state.slips, &Slip::first, &Slip::second);
   sets.arrays("slips_and_friction", state.slips, &Slip::values);
+}
+
+/// Values of elements by their ids.
+std::vector<double> in_order(const std::vector<double>& values, const std::vector<GlobalId>& ids, std::size_t stride) {
+  std::vector<double> ordered(values.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    std::copy_n(values.begin() + static_cast<long>(i * stride), stride,
+                ordered.begin() + ids[i] * static_cast<long>(stride));
+  }
+  return ordered;
 }
 
 /// Every rank's elements' values out of those of all elements, which rank 0 has. Collective.
@@ -70,18 +80,15 @@ io::Checkpoint gather_state(const base::Comm& comm, const SavedState<dim>& state
   whole.softened = base::gather_on_root(comm, state.softened);
   whole.slips = base::gather_on_root(comm, state.slips);
   const auto ids = base::gather_on_root(comm, owned_elements);
-  const auto values = base::gather_on_root(comm, state.displacement);
+  const auto displacement = base::gather_on_root(comm, state.displacement);
+  const auto starts = base::gather_on_root(comm, state.starts);
   io::Checkpoint checkpoint;
   if (comm.getRank() != 0) return checkpoint;
 
   DataSetWriter writer(checkpoint);
   describe(writer, whole, FlagPoint<dim>{});
-  auto& displacement = checkpoint.numbers[displacement_name];
-  displacement.resize(values.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    std::copy_n(values.begin() + static_cast<long>(i * stride), stride,
-                displacement.begin() + ids[i] * static_cast<long>(stride));
-  }
+  checkpoint.numbers[displacement_name] = in_order(displacement, ids, stride);
+  if (!starts.empty()) checkpoint.numbers[starts_name] = in_order(starts, ids, stride);
   return checkpoint;
 }
 
@@ -95,9 +102,14 @@ SavedState<dim> share_state(const base::Comm& comm, const io::Checkpoint& gather
   SavedState<dim> state;
   DataSetReader reader(comm, gathered);
   describe(reader, state, FlagPoint<dim>{});
-  const auto all = comm.getRank() == 0 ? gathered.numbers.at(displacement_name) : std::vector<double>();
   const std::vector<GlobalId> elements(mesh.element_ids.begin(), mesh.element_ids.begin() + mesh.n_real_elements());
-  state.displacement = fetch(comm, elements, SavedState<dim>::values_per_element, all);
+  const auto share = [&](const char* name) {
+    const auto all = comm.getRank() == 0 ? gathered.numbers.at(name) : std::vector<double>();
+    return fetch(comm, elements, SavedState<dim>::values_per_element, all);
+  };
+  state.displacement = share(displacement_name);
+  if (base::max(comm, static_cast<GlobalId>(gathered.numbers.count(starts_name))) > 0)
+    state.starts = share(starts_name);
   return state;
 }
 

@@ -132,7 +132,7 @@ TEST_F(Topology, AStateComesBackFromItsShares) {
   }
 
   EXPECT_EQ(discretization::find_broken(*comm, whole, topology), state.broken);
-  EXPECT_EQ(discretization::nodal_displacement(whole, topology), state.displacement);
+  EXPECT_EQ(discretization::nodal_displacement(whole.displacement, topology), state.displacement);
 }
 
 TEST_F(Topology, ABondThatIsNotThereIsTheUsersMistake) {

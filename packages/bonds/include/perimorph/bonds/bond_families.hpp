@@ -104,16 +104,17 @@ class BondFamilies {
   /// a plane of symmetry, only one counts.
   bool counts_here(const Bond<dim>& bond) const {
     if (bond.first_element >= mesh_.n_owned_elements) return false;
-    if (bond.second_element < mesh_.n_real_elements()) return true;
-    const int other = mesh_.images[bond.second_element - mesh_.n_real_elements()].element;
+    if (!mesh_.is_image(bond.second_element)) return true;
+    const int other = mesh_.image(bond.second_element).element;
     if (other == bond.first_element) return bond.first_end <= bond.second_end;
     return mesh_.element_ids[bond.first_element] < mesh_.element_ids[other];
   }
   /// How much of its energy belongs to what this rank owns: half where the bond is its own mirror image.
   double share_here(const Bond<dim>& bond) const {
     if (!counts_here(bond)) return 0.;
-    if (bond.second_element < mesh_.n_real_elements() || bond.first_end != bond.second_end) return 1.;
-    return mesh_.images[bond.second_element - mesh_.n_real_elements()].element == bond.first_element ? 0.5 : 1.;
+    const bool is_its_own_image = mesh_.is_image(bond.second_element) && bond.first_end == bond.second_end &&
+                                  mesh_.image(bond.second_element).element == bond.first_element;
+    return is_its_own_image ? 0.5 : 1.;
   }
   bool broken(BondId b) const { return (ends_of(b) & broken_bit) != 0; }
   int pair_of(BondId b) const;

@@ -21,6 +21,7 @@ struct Step {
   std::vector<LoadTable> tables;      ///< of other conditions
   std::optional<int> cycles;          ///< so often to the values and back, and through the tables
   std::vector<std::string> released;  ///< conditions that end where it begins
+  std::vector<std::string> started;   ///< conditions that begin with it
 
   double all_increments() const { return static_cast<double>(increments) * cycles.value_or(1); }
 };
@@ -44,5 +45,7 @@ std::shared_ptr<const discretization::Amplitude> amplitude_of(const std::string&
 
 /// The increment after which a condition is released; infinity if it never is. Local.
 double end_of(const std::string& condition, const std::vector<Step>& steps);
+/// The increment after which it begins; minus infinity if it holds from the first. Local.
+double begin_of(const std::string& condition, const std::vector<Step>& steps);
 
 }  // namespace perimorph::cases

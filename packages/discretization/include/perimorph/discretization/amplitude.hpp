@@ -34,11 +34,14 @@ using Amplitude = PiecewiseLinear;
 template <class T>
 struct Ramp {
   T rate, constant;
-  const Amplitude* amplitude = nullptr;                  ///< must outlive this
-  double end = std::numeric_limits<double>::infinity();  ///< load factor beyond which there is no value: 0
+  const Amplitude* amplitude = nullptr;                     ///< must outlive this
+  double end = std::numeric_limits<double>::infinity();     ///< load factor beyond which there is no value: 0
+  double begin = -std::numeric_limits<double>::infinity();  ///< and up to which there is none yet
+
+  bool holds_at(double load_factor) const { return load_factor > begin && load_factor <= end; }
 
   T at(double load_factor) const {
-    if (load_factor > end) return T(0. * rate);
+    if (!holds_at(load_factor)) return T(0. * rate);
     return rate * (amplitude == nullptr ? load_factor : amplitude->at(load_factor)) + constant;
   }
 
@@ -48,7 +51,7 @@ struct Ramp {
     return step == 0. ? T(0. * rate) : T((at(load_factor) - at(load_factor - step)) / step);
   }
 
-  Ramp operator-() const { return {T(-rate), T(-constant), amplitude, end}; }
+  Ramp operator-() const { return {T(-rate), T(-constant), amplitude, end, begin}; }
 
   /// Whether both go by the same amplitude, or by the load factor.
   bool has_course_of(const Ramp& other) const {

@@ -63,8 +63,8 @@ struct SelfWeight {
   double other_density = 0.;                     ///< of all other blocks
 };
 
-/// Prescribed displacements by node of the reference mesh: every node of the topology that stands on it obeys them, up
-/// to the load factor at which they end. With the groups that move as one.
+/// Prescribed displacements by node of the reference mesh: every node of the topology that stands on it obeys them,
+/// between the load factors at which they begin and end. With the groups that move as one.
 template <int dim>
 class Dirichlet {
  public:
@@ -74,7 +74,7 @@ class Dirichlet {
     Ramp<double> value;
   };
 
-  /// @throws UserError if two conditions contradict each other on a node. Collective.
+  /// @throws UserError if two conditions contradict each other on a node. Collective. The mesh must outlive this.
   Dirichlet(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions,
             const std::vector<RigidGroup>& groups = {});
 
@@ -82,14 +82,18 @@ class Dirichlet {
   /// Local, with the same answer on all ranks.
   bool apply_load(double load_factor);
 
+  /// Whether the last apply_load() has made conditions begin, on any rank: what they prescribe counts from where nodes
+  /// are then.
+  bool has_begun() const { return has_begun_; }
+  /// Whether one of them prescribes that. @param reference_node local node of the reference mesh, here and below
+  bool has_begun(int reference_node, int component) const { return begun_[reference_node * dim + component] != 0; }
+
   /// Whether it does at the present load factor, and no oblique direction besides.
-  /// @param reference_node local node of the reference mesh, here and below
   bool prescribes(int reference_node, int component) const {
     PERIMORPH_DEBUG_ASSERT(component >= 0 && component < dim, "component {}", component);
-    return fixed_[reference_node * dim + component] && load_factor_ <= ramp(reference_node, component).end;
+    return fixed_[reference_node * dim + component];
   }
-  /// All that is prescribed at the nodes where that is so along directions that are oblique to the axes, by node; also
-  /// what has ended.
+  /// All that is prescribed at the nodes where that is so along directions that are oblique to the axes, by node.
   const std::map<int, std::vector<Along>>& oblique() const { return oblique_; }
   const std::vector<GroupMotion<dim>>& groups() const { return groups_; }
   double load_factor() const { return load_factor_; }  ///< the present one
@@ -99,15 +103,19 @@ class Dirichlet {
   }
 
  private:
-  std::vector<char> fixed_;
+  const mesh::Mesh<dim>& mesh_;
+  std::vector<PrescribedComponent> on_nodes_;  ///< conditions that move no group
+  std::vector<Ramp<double>> of_groups_;        ///< values of those that do
+  std::vector<char> fixed_, begun_;
   std::vector<Ramp<double>> values_;
   std::map<int, std::vector<Along>> oblique_;
   std::vector<GroupMotion<dim>> groups_;
-  std::vector<double> ends_;  ///< of the conditions that end, load factors
   double load_factor_ = 0.;
+  bool has_begun_ = false;
 
-  void prescribe(const mesh::Mesh<dim>& mesh, const PrescribedComponent& condition);
-  void gather_oblique(const mesh::Mesh<dim>& mesh, const std::vector<PrescribedComponent>& conditions);
+  void follow_conditions();
+  void prescribe(const PrescribedComponent& condition);
+  void gather_oblique();
 };
 
 /// Forces of tractions, pressures and body forces on the nodes of the current topology, consistent with the shape

@@ -32,6 +32,7 @@ struct SavedState : History<dim> {
   std::vector<SoftBond> softened;     ///< unbroken ones, likewise
   std::vector<SavedSlip<dim>> slips;  ///< likewise
   std::vector<double> displacement;   ///< of owned elements, (n_owned_elements, values_per_element), [length]
+  std::vector<double> starts;         ///< State::starts likewise; empty if there are none on all ranks
 };
 
 /// This rank's share of a state on the topology that follows from it. Local.
@@ -52,9 +53,9 @@ bonds::SofteningHistories find_softened(const base::Comm& comm, const SavedState
 template <int dim>
 bonds::Slips<dim> find_slips(const SavedState<dim>& saved, const Topology<dim>& topology);
 
-/// The displacement on all local degrees of freedom of the topology, [length]. Local.
-/// @param saved has that of all local elements
+/// Displacements on all local degrees of freedom of the topology, [length]. Local.
+/// @param saved those of all local elements, as SavedState has them
 template <int dim>
-std::vector<double> nodal_displacement(const SavedState<dim>& saved, const Topology<dim>& topology);
+std::vector<double> nodal_displacement(const std::vector<double>& saved, const Topology<dim>& topology);
 
 }  // namespace perimorph::discretization

@@ -21,8 +21,10 @@ class Space {
  public:
   using Vector = Tpetra::Vector<double>;
 
-  /// Collective. The arguments must outlive this.
-  Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet);
+  /// Collective. Degrees of freedom and what is prescribed must outlive this.
+  /// @param starts displacements from which what is prescribed along axes counts, on all local degrees of freedom, or
+  ///        none for zeros, [length]
+  Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet, std::vector<double> starts = {});
 
   const DofMap<dim>& dofs() const { return dofs_; }
   std::size_t n_local() const { return is_constrained_.size(); }  ///< degrees of freedom with copies
@@ -67,6 +69,7 @@ class Space {
  private:
   const DofMap<dim>& dofs_;
   const Dirichlet<dim>& dirichlet_;
+  std::vector<double> starts_;
   NodeFrames<dim> frames_;
   GroupTies<dim> groups_;
   std::vector<int> along_axes_;  ///< of those that are prescribed, along x, y or z; zero across planes of symmetry

@@ -51,6 +51,8 @@ template <int dim>
 struct State : History<dim> {
   BrokenByCall broken;
   std::vector<double> displacement;  ///< on all local degrees of freedom of the topology, [length]
+  /// Likewise: where supports that begin later than the run have found nodes, zero elsewhere; empty before any has.
+  std::vector<double> starts;
 
   /// The ledger of broken bonds: history, count and energy.
   void take(const bonds::BondChange& change) {

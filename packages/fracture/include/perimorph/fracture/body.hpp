@@ -127,6 +127,7 @@ class Body {
 
   bool grow();
   void rebuild(bool has_grown);
+  void note_starts();
   void move_to_new_numbering();
   void assemble();
   void publish(const bonds::BondChange& change);

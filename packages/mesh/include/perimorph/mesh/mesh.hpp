@@ -80,6 +80,12 @@ struct Mesh {
   int n_nodes() const { return static_cast<int>(coordinates.size()); }
   int n_elements() const { return static_cast<int>(types.size()); }
   int n_real_elements() const { return n_elements() - static_cast<int>(images.size()); }
+  bool is_image(int element) const { return element >= n_real_elements(); }
+  const Image<dim>& image(int element) const {
+    PERIMORPH_DEBUG_ASSERT(is_image(element) && has_element(element), "element {} of {} is no image", element,
+                           n_elements());
+    return images[element - n_real_elements()];
+  }
   int n_corners(int element) const {
     PERIMORPH_DEBUG_ASSERT(has_element(element), "element {} of {}", element, n_elements());
     return first_corner[element + 1] - first_corner[element];

@@ -57,7 +57,7 @@ class CoupledSystem : public NonlinearSystem {
   };
 
   /// Makes terms and matrices of the present topology. Collective.
-  PreconditionerSource assemble();
+  PreconditionerSource assemble(std::vector<double> starts = {});
 
   /// The tangent with all bonds that hold now, in the basis of the preconditioner's matrix. It does not follow later
   /// changes. Collective.
