@@ -13,7 +13,7 @@ import netCDF4
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import EVERY, INCREMENTS, N, GrowingCrack, changed, text_of
+from fixture import EVERY, HALF, INCREMENTS, N, GrowingCrack, changed, half_plate_mesh, text_of
 
 OUTPUT = {
     "Crack": True,
@@ -54,6 +54,18 @@ class Exports(GrowingCrack):
 
     def bonds(self, increment):
         return read_vtp(self.output / f"bonds-{increment:06d}.vtp")
+
+    def assert_bonds_agree_with_points_and_history(self, increment):
+        bonds = self.bonds(increment)
+        self.assertEqual(int(bonds["broken"].sum()), int(self.history()[increment - 1]["broken_bonds"]))
+        ends = bonds["connectivity"].reshape(-1, 2)
+        self.assertLess(ends.max(), len(bonds["points"]))
+        xi = bonds["points"][ends[:, 1]] - bonds["points"][ends[:, 0]]
+        eta = bonds["displacement"][ends[:, 1]] - bonds["displacement"][ends[:, 0]]
+        length = numpy.linalg.norm(xi, axis=1)
+        self.assertLessEqual(length.max(), 2 * (1 + 1e-12))  # the horizon
+        numpy.testing.assert_allclose(numpy.linalg.norm(xi + eta, axis=1) / length - 1, bonds["stretch"][:, 0], atol=1e-12)
+        self.assertEqual(list(bonds["offsets"][:, 0]), list(range(2, 2 * len(length) + 2, 2)))
 
 
 class Content(Exports):
@@ -104,23 +116,31 @@ class Content(Exports):
         self.assertEqual(min(min(row["x_1"], row["x_2"]) for row in ahead), 5)  # where the slit ends
 
     def test_bonds_are_all_there_with_positions_stretch_and_whether_they_are_broken(self):
-        history = self.history()
         self.assertEqual(sorted(p.name for p in self.output.glob("bonds*")), ["bonds-000011.vtp", "bonds-000016.vtp"])
         for increment in [11, 16]:
-            bonds = self.bonds(increment)
-            self.assertEqual(int(bonds["broken"].sum()), int(history[increment - 1]["broken_bonds"]))
-            ends = bonds["connectivity"].reshape(-1, 2)
-            xi = bonds["points"][ends[:, 1]] - bonds["points"][ends[:, 0]]
-            eta = bonds["displacement"][ends[:, 1]] - bonds["displacement"][ends[:, 0]]
-            length = numpy.linalg.norm(xi, axis=1)
-            self.assertLessEqual(length.max(), 2 * (1 + 1e-12))  # the horizon
-            numpy.testing.assert_allclose(numpy.linalg.norm(xi + eta, axis=1) / length - 1, bonds["stretch"][:, 0], atol=1e-12)
-            self.assertEqual(list(bonds["offsets"][:, 0]), list(range(2, 2 * len(length) + 2, 2)))
+            self.assert_bonds_agree_with_points_and_history(increment)
         self.assertGreater(self.bonds(16)["broken"].sum(), 0)
 
     def test_a_new_run_removes_the_bonds_of_an_older_one(self):
         self.run_until(3)
         self.assertEqual(list(self.output.glob("bonds*")), [])
+
+
+class Mirrored(Exports):
+    """The upper half of the plate: bonds reach beyond the plane of symmetry."""
+
+    MESH = half_plate_mesh()
+    CASE = changed(Exports.CASE, HALF)
+
+    def test_bonds_end_in_points_each_counts_once_and_no_rank_leaves_any_out(self):
+        all_bonds = []
+        for ranks in [1, 2]:
+            self.run_until(INCREMENTS, ranks=ranks)
+            self.assert_bonds_agree_with_points_and_history(16)
+            all_bonds.append(self.bonds(16))
+            self.assertLess(all_bonds[-1]["points"][all_bonds[-1]["connectivity"].ravel(), 1].min(), 6)
+        for name in ["connectivity", "broken", "id"]:
+            numpy.testing.assert_array_equal(all_bonds[0][name], all_bonds[1][name])
 
 
 class Ranks(Exports):

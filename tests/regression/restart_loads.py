@@ -10,7 +10,7 @@ import unittest
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import EVERY, INCREMENTS, GrowingCrack, changed, half_plate_mesh, plate_mesh, settings
+from fixture import EVERY, HALF, INCREMENTS, GrowingCrack, changed, half_plate_mesh, plate_mesh, settings
 
 
 class PathFollowing(GrowingCrack):
@@ -157,9 +157,7 @@ class SymmetryPlanes(GrowingCrack):
     """The upper half of the plate: the crack runs along the plane of symmetry."""
 
     MESH = half_plate_mesh()
-    CASE = changed(GrowingCrack.CASE, {
-        "Pre-Cracks": None, "Boundary Conditions/Displacements/pull down": None, "Boundary Conditions/Displacements/hold y": None,
-        "Boundary Conditions/Symmetry Planes/middle/Group": "ligament"})
+    CASE = changed(GrowingCrack.CASE, HALF)
     KINDS = [[], settings("Material/Poisson's Ratio=0.2"), settings("Solver/Operator=CRS"), settings("Solver/Operator=On-the-Fly")]
 
     def test_on_as_many_ranks_it_ends_with_the_same_bits(self):

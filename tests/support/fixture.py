@@ -114,6 +114,11 @@ def half_plate_mesh():
     return msh(['0 1 "upper"', '1 2 "ligament"', '1 3 "right"', '2 4 "body"'], nodes, elements)
 
 
+# What makes the plate's case that of its upper half.
+HALF = {"Pre-Cracks": None, "Boundary Conditions/Displacements/pull down": None, "Boundary Conditions/Displacements/hold y": None,
+        "Boundary Conditions/Symmetry Planes/middle/Group": "ligament"}
+
+
 def text_of(variable):
     """The names that a variable of characters holds."""
     return [bytes(name).decode() for name in netCDF4.chartostring(variable[:], encoding="bytes")]

@@ -260,8 +260,7 @@ ParameterList table_of(const cases::Case& input, const model::Problem<dim>& prob
   put_conditions(input, mesh, table.sublist("Conditions"));
   put_measure(input.loading, table.sublist("Measure"));
   auto& planes = table.sublist("Symmetry Planes");
-  for (const auto& plane : input.boundary_conditions.symmetry_planes)
-    planes.sublist(plane.name).set("Group", plane.group);
+  for (const auto& [name, group] : input.boundary_conditions.symmetry_planes) planes.sublist(name).set("Group", group);
   put_rigid_groups(input.boundary_conditions.rigid_groups, table.sublist("Rigid Groups"));
   put_probes(input.output.probes, table.sublist("Probes"));
   return table;

@@ -294,8 +294,13 @@ InitialSizes sizes_of(const base::Comm& comm, const fracture::Body<dim>& body) {
   const auto model = body.model();
   InitialSizes sizes;
   for (int p = 0; p < model.bonds.n_pairs(); ++p) {
-    if (model.bonds.pair(p).first >= mesh.n_owned_elements) continue;
-    sizes.bonds += static_cast<GlobalId>(model.bonds.first_bond(p + 1) - model.bonds.first_bond(p));
+    const auto [first, second] = model.bonds.pair(p);
+    if (first >= mesh.n_owned_elements) continue;
+    if (mesh.is_image(second)) {
+      model.bonds.for_each_bond(p, [&](const auto& bond) { sizes.bonds += model.bonds.counts_here(bond); });
+    } else {
+      sizes.bonds += static_cast<GlobalId>(model.bonds.first_bond(p + 1) - model.bonds.first_bond(p));
+    }
   }
   for (int e = 0; e < mesh.n_owned_elements; ++e) {
     sizes.elements_of_class[static_cast<int>(body.topology().classes()[e])] += 1.;

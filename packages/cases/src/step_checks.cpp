@@ -95,6 +95,20 @@ std::set<std::string> started_in(const std::vector<Values>& steps) {
   return all;
 }
 
+/// Why a displacement cannot begin with a later step; "" if it can, and for loads. @param rigid groups that move as one
+std::string trouble_with_later(const std::string& name, const Condition& condition,
+                               const std::set<std::string>& rigid) {
+  const auto* group = condition.section.text("Group");
+  if (!condition.holds) return "";
+  if (condition.section.given("Direction")) {
+    return fmt::format("found {}, which has a \"Direction\"; allowed are displacements along an axis",
+                       input::in_quotes(name));
+  }
+  if (group == nullptr || rigid.count(*group) == 0) return "";
+  return fmt::format("found {}, which moves the rigid group {}; allowed are displacements of nodes",
+                     input::in_quotes(name), input::in_quotes(*group));
+}
+
 /// @param rigid groups that move as one
 /// @param waiting conditions that later steps start, from which those of this one are taken
 void check_started(const Values& step, bool is_first, const Conditions& conditions, const std::set<std::string>& rigid,
@@ -114,17 +128,7 @@ void check_started(const Values& step, bool is_first, const Conditions& conditio
     if (trouble.empty() && released.count(name) != 0) {
       trouble = fmt::format("found {}, which {} releases", input::in_quotes(name), released.at(name));
     }
-    if (trouble.empty()) {
-      const auto& section = conditions.find(name)->second.section;
-      const auto* group = section.text("Group");
-      if (section.given("Direction") && conditions.find(name)->second.holds) {
-        trouble = fmt::format("found {}, which has a \"Direction\"; allowed are displacements along an axis",
-                              input::in_quotes(name));
-      } else if (conditions.find(name)->second.holds && group != nullptr && rigid.count(*group) != 0) {
-        trouble = fmt::format("found {}, which moves the rigid group {}; allowed are displacements of nodes",
-                              input::in_quotes(name), input::in_quotes(*group));
-      }
-    }
+    if (trouble.empty()) trouble = trouble_with_later(name, conditions.find(name)->second, rigid);
     if (!trouble.empty()) step.mistake("Started", trouble);
   }
 }

@@ -127,9 +127,10 @@ SymmetryPlane symmetry_plane(const base::Comm& comm, const Mesh<dim>& mesh, cons
   int axis = 0;
   group.sizes().minCoeff(&axis);
   if (group.isEmpty() || (group.sizes().array() <= slack).count() != 1) {
-    throw base::UserError(fmt::format(
-        "the group \"{}\" is no plane of symmetry: allowed are nodes on one plane across an axis, and on no line less",
-        node_set));
+    throw base::UserError(
+        fmt::format("the group \"{}\" is no plane of symmetry: allowed are nodes on one plane across an axis, and not "
+                    "all on a line",
+                    node_set));
   }
   const double place = group.min()[axis];
   if (place > body.min()[axis] + slack && place < body.max()[axis] - slack) {

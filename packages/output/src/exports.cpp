@@ -86,7 +86,7 @@ struct PointRecord {
   std::array<double, dim> position, displacement;
 };
 
-/// The bonds whose first element this rank owns.
+/// The bonds that count on this rank.
 template <int dim>
 std::vector<BondRecord> own_bonds(const Body<dim>& body) {
   const auto model = body.model();
@@ -94,7 +94,7 @@ std::vector<BondRecord> own_bonds(const Body<dim>& body) {
   const auto& u = at_points.displacement;
   std::vector<BondRecord> records;
   model.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
-    if (bond.first_element >= body.mesh().n_owned_elements) return;
+    if (!model.bonds.counts_here(bond)) return;
     const double length = (bond.xi + u[bond.second_point] - u[bond.first_point]).norm();
     records.push_back({model.points.global_id(bond.first_element, bond.first_end),
                        model.points.global_id(bond.second_element, bond.second_end),
@@ -104,20 +104,24 @@ std::vector<BondRecord> own_bonds(const Body<dim>& body) {
   return records;
 }
 
+/// With their images beyond planes of symmetry.
 template <int dim>
 std::vector<PointRecord<dim>> own_bonded_points(const Body<dim>& body) {
   const auto model = body.model();
+  const auto& mesh = body.mesh();
   std::vector<PointRecord<dim>> records;
-  for (int e = 0; e < body.mesh().n_owned_elements; ++e) {
-    if (model.bonds.pairs_of(e).empty()) continue;
-    for (int q = 0; q < model.points.count(e); ++q) {
-      const int point = model.points.first(e) + q;
-      PointRecord<dim> record{model.points.global_id(e, q), {}, {}};
-      Eigen::Map<Point<dim>>(record.position.data()) = model.points.position(point);
-      Eigen::Map<Point<dim>>(record.displacement.data()) = body.system().at_points().displacement[point];
+  const auto add = [&](int element, int source, const Point<dim>& signs) {
+    if (source >= mesh.n_owned_elements || model.bonds.pairs_of(source).empty()) return;
+    for (int q = 0; q < model.points.count(element); ++q) {
+      const Point<dim>& u = body.system().at_points().displacement[model.points.first(source) + q];
+      PointRecord<dim> record{model.points.global_id(element, q), {}, {}};
+      Eigen::Map<Point<dim>>(record.position.data()) = model.points.position(model.points.first(element) + q);
+      Eigen::Map<Point<dim>>(record.displacement.data()) = signs.cwiseProduct(u);
       records.push_back(record);
     }
-  }
+  };
+  for (int e = 0; e < mesh.n_owned_elements; ++e) add(e, e, Point<dim>::Ones());
+  for (int e = mesh.n_real_elements(); e < mesh.n_elements(); ++e) add(e, mesh.image(e).element, mesh.image(e).signs);
   return records;
 }
 
