@@ -399,6 +399,19 @@ TEST_F(CaseFile, AMatrixCannotHoldDilatation) {
   EXPECT_EQ(read(valid, {"Solver/Operator=CRS"}).numerical.operator_form, perimorph::operators::OperatorForm::crs);
 }
 
+TEST_F(CaseFile, ContactNeedsFacesThatCanMeet) {
+  const auto with_contact = [&](const std::string& other) {
+    return error(valid, {"Peridynamics/Crack Faces=Contact", other});
+  };
+  EXPECT_THAT(
+      with_contact("Boundary Conditions/Symmetry Planes/middle/Group=top"),
+      HasSubstr("--set: /Peridynamics/Crack Faces: found \"Contact\"; with /Boundary Conditions/Symmetry Planes "
+                "allowed is \"Free\": contact across the planes is not computed"));
+  EXPECT_THAT(with_contact("Morphing/Discontinuous Elements=Never"),
+              HasSubstr("--set: /Peridynamics/Crack Faces: found \"Contact\"; with /Morphing/Discontinuous Elements = "
+                        "\"Never\" allowed is \"Free\": elements that do not part have no faces"));
+}
+
 // --- several materials ---
 
 const std::string with_steel = R"xml(<ParameterList name="Materials">

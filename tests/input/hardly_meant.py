@@ -5,12 +5,11 @@
 
 import itertools
 import pathlib
-import subprocess
 import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import CASE, MPIEXEC, PERIMORPH, Plate, changed, msh, settings
+from fixture import CASE, Plate, changed, msh, settings
 
 DISPLACEMENTS = "Boundary Conditions/Displacements"
 TIP = "Morphing/Seeds/tip"
@@ -76,10 +75,6 @@ def blocks(*boxes, shared=()):
 
 
 class Checked(Plate):
-    def perimorph(self, *arguments, ranks=1):
-        start = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
-        return subprocess.run([*start, PERIMORPH, *map(str, arguments)], capture_output=True, text=True, timeout=60)
-
     def check(self, *options, ranks=1):
         return self.perimorph("check", self.case, *options, ranks=ranks)
 

@@ -13,7 +13,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import CASE, MPIEXEC, PERIMORPH, Plate, changed, settings, until
+from fixture import CASE, PERIMORPH, Plate, changed, launch, settings, until
 
 MEMORY = 8 << 30  # of address space, for each rank: Open MPI and libraries take half a gigabyte of it
 
@@ -92,7 +92,7 @@ class Program(Plate):
         (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
 
     def perimorph(self, *arguments, ranks=1):
-        command = [MPIEXEC, "-n", str(ranks), PERIMORPH, *map(str, arguments)]
+        command = [*launch(ranks), PERIMORPH, *map(str, arguments)]
         limit = None if "ASAN_OPTIONS" in os.environ else lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         return subprocess.run(command, capture_output=True, text=True, timeout=60, preexec_fn=limit, cwd=self.folder)
 
@@ -223,7 +223,7 @@ class Geometries(Program):
 
     def test_a_signal_ends_a_run_that_waits_for_gmsh(self):
         self.write("plate.geo", self.ENDLESS)
-        command = [MPIEXEC, "-n", "2", PERIMORPH, "run", self.case, "--output", self.output]
+        command = [*launch(2), PERIMORPH, "run", self.case, "--output", self.output]
         with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as run:
             meshes = ["pgrep", "-f", f"gmsh .*{self.folder}"]
             self.assertTrue(until(lambda: subprocess.run(meshes, capture_output=True).returncode == 0))

@@ -120,10 +120,12 @@ struct Example {
 
 std::vector<Example> examples() {
   const auto whole_zone = DiscontinuousElements::whole_zone, on_damage = DiscontinuousElements::on_damage;
+  const auto never = DiscontinuousElements::never;
   return {{"WholeZoneSlitAlongElements", plate_with_slit(whole_zone), {0.5, 0.65, 0.75}},
           {"OnDamageSlitAlongElements", plate_with_slit(on_damage), {0.75, 0.82, 0.85}},
           {"WholeZoneObliqueCrackThroughElements", plate_with_oblique_crack(whole_zone), {0.3, 0.5, 0.6}},
           {"OnDamageObliqueCrackThroughElements", plate_with_oblique_crack(on_damage), {0.3, 0.5, 0.6}},
+          {"NeverSlitAlongElements", plate_with_slit(never), {0.75, 1.2, 1.5}},
           {"WorstThirdFirst", plate_that_breaks_worst_first(), {0.3, 0.5, 0.6}},
           {"UnderCompression", plate_under_compression(), {0.3, 0.5, 0.7}}};
 }

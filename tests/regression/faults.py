@@ -36,9 +36,7 @@ class Faults:
                        "LD_PRELOAD": FILE_FAULTS}
         command = self.command(*EVERY, *self.OPTIONS, *options)
         preload = ["env", *(f"{name}={value}" for name, value in environment.items())]  # not mpirun itself
-        if ranks > 1:
-            preload = [fixture.MPIEXEC, "-n", str(ranks), *preload]
-        run = subprocess.run([*preload, *command], capture_output=True, text=True, timeout=120)
+        run = subprocess.run([*fixture.launch(ranks), *preload, *command], capture_output=True, text=True, timeout=120)
         return run.returncode, int(count.read_text()) if count.exists() else None
 
     def prepare(self, before):

@@ -61,6 +61,11 @@ def changed(case, changes):
     return case
 
 
+def launch(ranks):
+    """What comes before the program on so many ranks."""
+    return [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
+
+
 def settings(*texts):
     """Options that replace parameters, such as "Loading/Increments=2"."""
     return [option for text in texts for option in ("--set", text)]
@@ -170,8 +175,7 @@ class Plate(InFolder):
         case_file.write_case(self.case, changed(self.CASE, changes))
 
     def perimorph(self, *arguments, ranks=1, timeout=250, env=None):
-        command = [MPIEXEC, "-n", str(ranks), PERIMORPH, *map(str, arguments)]
-        return subprocess.run(command, capture_output=True, text=True, timeout=timeout, env=env)
+        return subprocess.run([*launch(ranks), PERIMORPH, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, env=env)
 
     def run_case(self, *options, **how):
         return self.perimorph("run", self.case, "--output", self.output, *options, **how)
@@ -194,8 +198,7 @@ class GrowingCrack(Plate):
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def command(self, *options, ranks=1, output=None):
-        command = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
-        return [*command, PERIMORPH, "run", self.case, "--output", output or self.output, "--quiet", *options]
+        return [*launch(ranks), PERIMORPH, "run", self.case, "--output", output or self.output, "--quiet", *options]
 
     def start(self, *options, ranks=1, output=None, **process):
         run = subprocess.Popen(self.command(*options, ranks=ranks, output=output), stdout=subprocess.DEVNULL,

@@ -62,7 +62,7 @@ void check(const Resolved& resolved, const std::string& folder, Mistakes& mistak
   if (dimension == nullptr) return;  // what is wrong depends on it
   check_mesh_source(root.sub("Mesh"), *dimension);
   check_materials(root, *dimension);
-  check_peridynamics(root.sub("Peridynamics"), !root.sub("Boundary Conditions").subs("Symmetry Planes").empty());
+  check_peridynamics(root);
   check_morphing(root.sub("Morphing"), *dimension);
   for (const auto& crack : root.subs("Pre-Cracks")) check_pre_crack(crack, *dimension);
   check_boundary_conditions(root.sub("Boundary Conditions"), *dimension);

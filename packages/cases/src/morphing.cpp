@@ -15,8 +15,10 @@ using operators::PeridynamicStiffness;
 
 constexpr std::array<Choice<BlendingFunction>, 2> blending_functions{
     {{"Linear", BlendingFunction::linear}, {"Cubic", BlendingFunction::cubic}}};
-constexpr std::array<Choice<DiscontinuousElements>, 2> discontinuous_elements{
-    {{"On Damage", DiscontinuousElements::on_damage}, {"Whole Zone", DiscontinuousElements::whole_zone}}};
+constexpr std::array<Choice<DiscontinuousElements>, 3> discontinuous_elements{
+    {{"On Damage", DiscontinuousElements::on_damage},
+     {"Whole Zone", DiscontinuousElements::whole_zone},
+     {"Never", DiscontinuousElements::never}}};
 constexpr std::array<Choice<PeridynamicStiffness>, 2> peridynamic_stiffnesses{
     {{"Dropped", PeridynamicStiffness::dropped}, {"Kept", PeridynamicStiffness::kept}}};
 
@@ -112,7 +114,9 @@ void declare(const input::Section& section, Morphing& morphing, model::Numerical
   section.choice("Discontinuous Elements", numerical.discontinuous, discontinuous_elements,
                  "Which peridynamic elements get nodes of their own: all of the zone (\"Whole Zone\", as WHL19 does), "
                  "or only those with a broken bond or beside a pre-crack (\"On Damage\": fewer unknowns, and more "
-                 "accurate before fracture).");
+                 "accurate before fracture). \"Never\": only those that a pre-crack passes through, to compare with "
+                 "codes whose elements never part: what has broken holds its neighbours together, cracks run late or "
+                 "not at all, and Calibration is as \"Analytic\".");
   section.choice("Stiffness in Peridynamic Zone", numerical.peridynamic_stiffness, peridynamic_stiffnesses,
                  "What becomes of the classical stiffness E(x) [WHL19, eq. 16] where all bonds are peridynamic: "
                  "\"Dropped\", as WHL19 does, or \"Kept\" where bonds are missing at free surfaces, which are too soft "

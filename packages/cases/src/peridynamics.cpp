@@ -46,15 +46,24 @@ void declare(const input::Section& section, Peridynamics& peridynamics, model::N
       "quarter of an element or less, cracks are then held up half as much; the calibration is as \"Analytic\".");
 }
 
-void check_peridynamics(const input::Values& section, bool has_symmetry_planes) {
+void check_peridynamics(const input::Values& root) {
+  const auto section = root.sub("Peridynamics");
   const std::string* faces = section.text("Crack Faces");
-  if (faces != nullptr && *faces == "Contact" && has_symmetry_planes) {
+  const bool is_contact = faces != nullptr && *faces == "Contact";
+  if (is_contact && !root.sub("Boundary Conditions").subs("Symmetry Planes").empty()) {
     section.mistake("Crack Faces",
                     "found \"Contact\"; with /Boundary Conditions/Symmetry Planes allowed is \"Free\": contact across "
                     "the planes is not computed");
   }
+  const std::string* discontinuous = root.sub("Morphing").text("Discontinuous Elements");
+  if (is_contact && discontinuous != nullptr && *discontinuous == "Never") {
+    section.mistake(
+        "Crack Faces",
+        "found \"Contact\"; with /Morphing/Discontinuous Elements = \"Never\" allowed is \"Free\": elements "
+        "that do not part have no faces");
+  }
   const double* friction = section.number("Friction Coefficient");
-  if (faces != nullptr && friction != nullptr && *friction > 0. && *faces != "Contact") {
+  if (faces != nullptr && friction != nullptr && *friction > 0. && !is_contact) {
     section.mistake("Friction Coefficient",
                     fmt::format("found {:.6g}; allowed with \"Crack Faces\" = \"{}\" is 0: faces rub where they press "
                                 "on each other",

@@ -117,9 +117,9 @@ template <int dim>
 bool Topology<dim>::find_discontinuous() {
   GlobalId split = 0, n_own = 0;
   for (int e = 0; e < mesh_.n_owned_elements; ++e) {
-    const bool whole_zone = options_.discontinuous == DiscontinuousElements::whole_zone;
-    const bool is_split =
-        classes_[e] == ElementClass::pd && (whole_zone || bonds_.is_damaged(e) || cut_by_pre_crack_[e]);
+    const bool by_itself = options_.discontinuous == DiscontinuousElements::whole_zone ||
+                           (options_.discontinuous == DiscontinuousElements::on_damage && bonds_.is_damaged(e));
+    const bool is_split = classes_[e] == ElementClass::pd && (by_itself || cut_by_pre_crack_[e]);
     if (is_split && !discontinuous_[e]) split = 1;
     discontinuous_[e] = is_split;
     n_own += is_split;

@@ -46,6 +46,7 @@ double interpolate(const std::array<double, n>& at, const std::array<double, n>&
 double lattice_resistance(DiscontinuousElements discontinuous, PeridynamicStiffness stiffness,
                           double characteristic_length, double dilatational_ratio) {
   PERIMORPH_ASSERT(characteristic_length > 0., "a characteristic length of {} elements", characteristic_length);
+  PERIMORPH_ASSERT(discontinuous != DiscontinuousElements::never, "elements that never part were not measured");
   return interpolate(lengths, resistances_of(discontinuous, stiffness), characteristic_length) *
          interpolate(dilatational_ratios, of_dilatation, dilatational_ratio);
 }
@@ -92,15 +93,16 @@ void make_up_for(double resistance, materials::Toughness& toughness) {
 
 }  // namespace
 
-bool is_calibrated_to_mesh(Calibration calibration, int dimension, int points_per_direction) {
-  const bool is_measured = dimension == 2 && points_per_direction == 2;
+bool is_calibrated_to_mesh(Calibration calibration, int dimension, const NumericalOptions& options) {
+  const bool is_measured =
+      dimension == 2 && options.points_per_direction == 2 && options.discontinuous != DiscontinuousElements::never;
   return is_measured && calibration == Calibration::mesh_consistent;
 }
 
 template <int dim>
 bool calibrate_to_mesh(Problem<dim>& problem, const NumericalOptions& options, double element_size) {
   PERIMORPH_ASSERT(element_size > 0., "elements of size {}", element_size);
-  const bool is_calibrated = is_calibrated_to_mesh(problem.calibration, dim, options.points_per_direction);
+  const bool is_calibrated = is_calibrated_to_mesh(problem.calibration, dim, options);
   if (!is_calibrated || !problem.breaks()) return false;
   std::vector<double> resistances;  // of materials
   for (auto& material : problem.materials) {

@@ -91,6 +91,17 @@ TEST(Advice, ACharacteristicLengthOfAFifthOfAnElementHoldsCracksUp) {
   EXPECT_THAT(advice(input, 1.), IsEmpty());  // nothing breaks
 }
 
+TEST(Advice, ElementsThatNeverPartHoldCracksUp) {
+  Case input = good();
+  input.numerical.discontinuous = discretization::DiscontinuousElements::never;
+  const auto expected = ElementsAre(StartsWith("/Morphing/Discontinuous Elements: \"Never\": broken elements hold"));
+  EXPECT_THAT(advice(input, 1.), expected);
+  input.peridynamics.characteristic_length = 0.2;
+  EXPECT_THAT(advice(input, 1.), expected);
+  input.material.fracture_energy.reset();
+  EXPECT_THAT(advice(input, 1.), IsEmpty());
+}
+
 TEST(Advice, AHorizonOfTwoElementsIsTooShort) {
   Case input = good();
   input.peridynamics.horizon = 2.;

@@ -25,14 +25,15 @@ class Topology : public testing::Test {
   Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
   mesh::Mesh<2> mesh = mesh::distribute(*comm, grid({20, 8, 20., 8.}), horizon);
 
-  discretization::Topology<2> made() const {
+  using Policy = discretization::DiscontinuousElements;
+  discretization::Topology<2> made(Policy policy = Policy::on_damage) const {
     return {comm,
             mesh,
             {{morphing::Zone<2>::ball({5., 4.}, 4., 6.)},
              {},
              materials::Micromodulus{100., 0.4, horizon},
              morphing::BlendingFunction::linear,
-             discretization::DiscontinuousElements::on_damage,
+             policy,
              2. * horizon,
              4. * horizon}};
   }
@@ -88,6 +89,16 @@ TEST_F(Topology, ElementsPartOnceABondOfTheirsBrokeAndTheirNodesStartWhereTheyWe
   for (std::size_t dof = 0; dof < carried.size(); ++dof) {
     EXPECT_EQ(carried[dof], mesh.coordinates[topology.dofs().reference_node(static_cast<int>(dof / 2))][dof % 2]);
   }
+}
+
+TEST_F(Topology, ElementsOfWhichNoneMayPartStayTogether) {
+  auto topology = made(Policy::never);
+  topology.update(topology.grow({}));
+  topology.take(crack(topology));
+
+  EXPECT_FALSE(topology.update(topology.grow({})).models);
+  EXPECT_EQ(topology.n_discontinuous(), 0);
+  EXPECT_EQ(topology.dofs().n_global_nodes(), 21 * 9);
 }
 
 TEST_F(Topology, DamagedElementsAreFlaggedOnceAndTheZoneGrowsAroundThem) {

@@ -69,13 +69,16 @@ TEST(CalibrationToTheMesh, LeavesAGivenCriticalStretchAndRaisesTheFractureEnergy
 }
 
 TEST(CalibrationToTheMesh, ChangesNothingWhereTheResistanceHasNotBeenMeasured) {
-  NumericalOptions options;
-  options.points_per_direction = 3;
-  Problem<2> problem = some_problem();
+  NumericalOptions three_points, never_parting;
+  three_points.points_per_direction = 3;
+  never_parting.discontinuous = discretization::DiscontinuousElements::never;
+  for (const auto& options : {three_points, never_parting}) {
+    Problem<2> problem = some_problem();
 
-  EXPECT_FALSE(calibrate_to_mesh(problem, options, 1.));
+    EXPECT_FALSE(calibrate_to_mesh(problem, options, 1.));
 
-  EXPECT_EQ(problem.materials[0].toughness.critical_stretch(), 0.01);
+    EXPECT_EQ(problem.materials[0].toughness.critical_stretch(), 0.01);
+  }
 }
 
 TEST(CalibrationToTheMesh, AnalyticChangesNothing) {

@@ -17,7 +17,7 @@ GROWTH = 2.0  # of the crack, in elements
 FINE, FINE_IN_SLAB, GRADING = 18, 13, 1.3  # elements of 1 around the tip, then growing ones
 
 DROPPED, KEPT = "Dropped", "Kept"
-ON_DAMAGE, WHOLE_ZONE = "On Damage", "Whole Zone"
+ON_DAMAGE, WHOLE_ZONE, NEVER = "On Damage", "Whole Zone", "Never"
 DEFAULT = {"l": 1 / 3, "horizon": 4.0, "discontinuous": ON_DAMAGE, "stiffness": DROPPED, "zone": 2.0, "mesh": "squares",
            "direction": 0, "calibration": "Mesh-Consistent", "half_width": 100.0, "points": 2, "fraction": 1.0,
            "layers": 0}  # 0: a plate in plane stress, else a slab in plane strain
@@ -42,6 +42,8 @@ def slab(length, horizon, **changes):
 STUDIES = {2: {
     "resistance": [{"l": l, "horizon": horizon_for(l), "discontinuous": discontinuous, "stiffness": stiffness,
                     "calibration": "Analytic"} for discontinuous, stiffness in POLICIES for l in LENGTHS],
+    "never": [{"l": l, "horizon": horizon_for(l), "discontinuous": NEVER, "stiffness": stiffness, "calibration": "Analytic"}
+              for stiffness in (DROPPED, KEPT) for l in LENGTHS[1:]],
     "mesh": [{"l": l, "horizon": horizon_for(l), "mesh": "irregular"} for l in LENGTHS]
             + [{"mesh": "disc", "direction": direction, "half_width": 40.0} for direction in (0, 15, 30, 45)],
     "kind": [{"mesh": mesh} for mesh in ("triangles", "gmsh", "gmsh triangles")],

@@ -17,6 +17,6 @@ struct Peridynamics {
 };
 
 void declare(const input::Section& section, Peridynamics& peridynamics, model::NumericalOptions& numerical);
-void check_peridynamics(const input::Values& section, bool has_symmetry_planes);
+void check_peridynamics(const input::Values& root);
 
 }  // namespace perimorph::cases

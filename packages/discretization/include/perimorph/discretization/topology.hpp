@@ -11,8 +11,9 @@
 
 namespace perimorph::discretization {
 
-/// Which peridynamic elements get nodes of their own: those with a broken bond or a pre-crack through them, or all.
-enum class DiscontinuousElements { on_damage, whole_zone };
+/// Which peridynamic elements get nodes of their own, beside those with a pre-crack through them: none, those with a
+/// broken bond, or all.
+enum class DiscontinuousElements { never, on_damage, whole_zone };
 
 /// Whether crack faces may pass through each other, or press on each other (operators/contact_forces.hpp).
 enum class CrackFaces { free, contact };

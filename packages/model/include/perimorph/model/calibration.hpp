@@ -10,6 +10,7 @@ namespace perimorph::model {
 /// each, and what the body loses as it breaks free is not in the energy of the bonds. Interpolated between measured
 /// values (`tools/studies/work-precision --only fracture`), for characteristic lengths of 0.2 to 0.5 elements; beyond,
 /// the value of the nearest of these. What dilatation changes of it was measured with a third of an element. Local.
+/// @param discontinuous not never
 /// @param characteristic_length in element sizes [-]
 /// @param dilatational_ratio kappa / mu (materials::dilatational_ratio), [-]
 double lattice_resistance(discretization::DiscontinuousElements discontinuous,
@@ -23,8 +24,9 @@ double element_size(const base::Comm& comm, const mesh::Mesh<dim>& mesh, const P
 
 /// Whether critical stretch and fracture energy make up for the lattice's resistance. In three dimensions it is small
 /// against the weakness of free faces (tests/verification/fracture_3d.csv); with other than two points per direction
-/// it has not been measured for all policies. Local.
-bool is_calibrated_to_mesh(Calibration calibration, int dimension, int points_per_direction);
+/// it has not been measured for all policies; and where elements never part it is no property of the lattice alone.
+/// Local.
+bool is_calibrated_to_mesh(Calibration calibration, int dimension, const NumericalOptions& options);
 
 /// If the problem is to be calibrated to the mesh, divides critical stretches by the lattice's resistance, so that a
 /// crack runs at K = sqrt(E G_c); where the critical stretch is given, changes the fracture energy accordingly. Returns
