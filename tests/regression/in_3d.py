@@ -17,11 +17,12 @@ from fixture import CASE, EVERY, SLOWLY, GrowingCrack, changed, msh, plate_mesh,
 NX, NY, NZ = 10, 8, 2  # cubes of size 1
 
 
-def mesh(is_mixed=False, size=(NX, NY, NZ)):
-    """gmsh's format 2.2: block "body", the right face "right", the two left edges "lower" and "upper". If it is mixed, two
-    cubes are cut into wedges, and one into pyramids and tetrahedra around its middle."""
+def mesh(is_mixed=False, size=(NX, NY, NZ), has_stiff=False):
+    """gmsh's format 2.2: block "body", the right face "right", the two left edges "lower" and "upper"; every third layer across
+    x in a block "stiff" if there is one. If it is mixed, two cubes are cut into wedges, and one into pyramids and tetrahedra
+    around its middle."""
     NX, NY, NZ = size
-    names = ['1 1 "lower"', '1 2 "upper"', '2 3 "right"', '3 4 "body"']
+    names = ['1 1 "lower"', '1 2 "upper"', '2 3 "right"', '3 4 "body"'] + ['3 5 "stiff"'] * has_stiff
     node = lambda i, j, k: (k * (NY + 1) + j) * (NX + 1) + i + 1
     nodes = [(node(i, j, k), i, j, k) for k in range(NZ + 1) for j in range(NY + 1) for i in range(NX + 1)]
     ring = lambda i, j, k: [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)]
@@ -39,7 +40,7 @@ def mesh(is_mixed=False, size=(NX, NY, NZ)):
             elements += [(7, 4, [*base, middle]) for base in [above[::-1], *around]]
             elements += [(4, 4, [*(below[c] for c in corners), middle]) for corners in [(0, 1, 2), (0, 2, 3)]]
         else:
-            elements.append((5, 4, below + above))
+            elements.append((5, 5 if has_stiff and i % 3 == 0 else 4, below + above))
     if not is_mixed:
         nodes.pop()
     return msh(names, nodes, elements)
@@ -183,7 +184,11 @@ class Continued(InThreeDimensions):
 class Restart(InThreeDimensions):
     """To the last bit, for the kinds of bonds and of loads."""
 
+    MESH = mesh(has_stiff=True)
     KINDS = {
+        "materials": {
+            "Materials": {"stiff": {"Blocks": ["stiff"], "Young's Modulus": 3000.0, "Poisson's Ratio": 0.2, "Critical Stretch": 0.05}},
+            "Interfaces": {"between": {"Materials": ["body", "stiff"], "Critical Stretch": 0.04}}},
         "softening": {"Material/Critical Stretch": None, "Material/Bond Law": "Exponential", "Material/Tensile Strength": 15.0,
                       "Material/Fracture Energy": 2.0, "Material/Poisson's Ratio": 0.2},
         "measure": {"Loading/Control": "Measure", "Loading/Measure": {
