@@ -20,7 +20,8 @@ DROPPED, KEPT = "Dropped", "Kept"
 ON_DAMAGE, WHOLE_ZONE, NEVER = "On Damage", "Whole Zone", "Never"
 DEFAULT = {"l": 1 / 3, "horizon": 4.0, "discontinuous": ON_DAMAGE, "stiffness": DROPPED, "zone": 2.0, "mesh": "squares",
            "direction": 0, "calibration": "Mesh-Consistent", "half_width": 100.0, "points": 2, "fraction": 1.0,
-           "layers": 0}  # 0: a plate in plane stress, else a slab in plane strain
+           "layers": 0,  # 0: a plate in plane stress, else a slab in plane strain
+           "ratio": None}  # Poisson's; None: that of bonds alone
 POLICIES = {(ON_DAMAGE, DROPPED): "#8a5bb0", (ON_DAMAGE, KEPT): "#1f5fa8", (WHOLE_ZONE, DROPPED): "#c8442c",
             (WHOLE_ZONE, KEPT): "#c98a1b"}
 LENGTHS = (0.2, 0.25, 1 / 3, 0.5)
@@ -52,18 +53,20 @@ STUDIES = {2: {
     "boundary": [{"half_width": half_width} for half_width in (25.0, 50.0, 100.0, 400.0)],
     "horizon": [{"horizon": 3.0}],
     "zone": [{"zone": 1.5}],
+    "ratio": [{"ratio": ratio} for ratio in (0.15, 0.2)],
 }, 3: {
     "resistance": [slab(l, horizon_for(l), discontinuous=discontinuous, stiffness=stiffness)
                    for discontinuous, stiffness in POLICIES for l in LENGTHS[:3]],
     "thickness": [slab(l, horizon_for(l), layers=layers) for l in LENGTHS[:3] for layers in (2, 8)],
     "horizon": [slab(l, 2.0) for l in LENGTHS[:2]],
     "points": [slab(0.2, 2.0, points=3)],
+    "ratio": [slab(1 / 3, 4.0, ratio=ratio) for ratio in (0.15, 0.4)],
 }}
 
 
-def critical_displacement(points, direction, layers):
+def critical_displacement(points, direction, layers, ratio):
     """Displacement of an infinite body around the tip of a crack at the origin, K = sqrt(E' G_c)."""
-    mu, k, modulus = plane_constants(layers)
+    mu, k, modulus = plane_constants(layers, ratio)
     turn = np.array([[np.cos(direction), -np.sin(direction)], [np.sin(direction), np.cos(direction)]])
     x, y = (points @ turn).T
     r, t = np.hypot(x, y), np.arctan2(y, x)
@@ -188,7 +191,7 @@ def case_of(folder, setting):
     nodes, elements, crack = body_of(setting, folder)
     boundary = np.setdiff1d(outer_nodes(elements), crack[0])  # the crack's mouth is free
     horizon, radius, layers = setting["horizon"], setting["zone"], setting["layers"]
-    displacements = STEP * critical_displacement(nodes[boundary], direction, layers)
+    displacements = STEP * critical_displacement(nodes[boundary], direction, layers, setting["ratio"])
     write_body(os.path.join(folder, "crack.msh"), nodes, elements, boundary, layers)
     tip, line = {"Center": [0, 0]}, {"Points": list(nodes[crack].ravel())}
     if layers > 0:
@@ -199,7 +202,7 @@ def case_of(folder, setting):
         "Title": "A crack under the displacement of mode I on the outer boundary",
         "Dimension": 3 if layers else 2,
         "Mesh": {"File": "crack.msh"},
-        "Material": {**material(layers), "Fracture Energy": G_C, "Calibration": setting["calibration"]},
+        "Material": {**material(layers, setting["ratio"]), "Fracture Energy": G_C, "Calibration": setting["calibration"]},
         "Peridynamics": {"Horizon": horizon, "Characteristic Length": setting["l"],
                          "Points per Direction": setting["points"]},
         "Morphing": {"Discontinuous Elements": setting["discontinuous"],
@@ -251,7 +254,7 @@ def measure(dimension, studies, folder):
     rows = []
     if os.path.exists(file):  # studies that are not run again keep their rows
         with open(file) as stream:
-            rows = [row for row in csv.DictReader(stream) if row["study"] not in studies]
+            rows = [{**row, "ratio": row.get("ratio", "")} for row in csv.DictReader(stream) if row["study"] not in studies]
     for study in studies:
         for changes in STUDIES[dimension][study]:
             setting = {**DEFAULT, **changes}
@@ -273,7 +276,7 @@ def measure(dimension, studies, folder):
 
 # Markers beside the lines of "resistance": label, marker, which rows.
 OTHERS = {2: [(f"{ON_DAMAGE}, {DROPPED}, analytic, 3 x 3 points", "+", lambda row: row["study"] == "points"),
-              (f"{ON_DAMAGE}, {DROPPED}, calibrated to the mesh: other meshes, horizon, zone, rule", "x",
+              (f"{ON_DAMAGE}, {DROPPED}, calibrated to the mesh: other meshes, horizon, zone, rule, ratio", "x",
                lambda row: row["calibration"] == "Mesh-Consistent" and row["study"] != "boundary")],
           3: [(f"{ON_DAMAGE}, {DROPPED}, two layers", "v", lambda row: row["study"] == "thickness" and int(row["layers"]) == 2),
               (f"{ON_DAMAGE}, {DROPPED}, eight layers", "^", lambda row: row["study"] == "thickness" and int(row["layers"]) == 8),

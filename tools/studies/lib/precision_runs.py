@@ -49,15 +49,15 @@ def prescribed(boundary, displacements, layers=0):
                    for n, both in zip(boundary, displacements) for component, rate in zip("xy", both)}
 
 
-def material(layers):
-    """Of a plate in plane stress or of a slab in plane strain."""
-    return {"Young's Modulus": E, "Poisson's Ratio": NU[bool(layers)],
+def material(layers, ratio=None):
+    """Of a plate in plane stress or of a slab in plane strain. @param ratio Poisson's, or that of bonds alone"""
+    return {"Young's Modulus": E, "Poisson's Ratio": ratio or NU[bool(layers)],
             "Elastic Model": "Three-Dimensional" if layers else "Plane Stress"}
 
 
-def plane_constants(layers):
-    """Of a plate in plane stress or of a slab in plane strain: shear modulus, Kolosov's constant, K^2 / G."""
-    nu = NU[bool(layers)]
+def plane_constants(layers, ratio=None):
+    """Of the same: shear modulus, Kolosov's constant, K^2 / G."""
+    nu = ratio or NU[bool(layers)]
     mu = E / (2 * (1 + nu))
     return (mu, 3 - 4 * nu, E / (1 - nu**2)) if layers else (mu, (3 - nu) / (1 + nu), E)
 
