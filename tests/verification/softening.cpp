@@ -55,18 +55,25 @@ struct Bar {
   }
 };
 
+mesh::Mesh<2> mesh_of(const Bar<2>& bar) {
+  return grid({bar.width, bar.gauge + 2 * bar.grip, bar.width * bar.size, bar.length()});
+}
+
+mesh::Mesh<3> mesh_of(const Bar<3>& bar) { return brick({bar.width, bar.width, bar.gauge + 2 * bar.grip}); }
+
 struct Pull {
-  double stiffness = 0.;  ///< over that of a classical bar
-  double strength = 0.;   ///< over that which was asked for
-  double energy = 0.;     ///< dissipated from the peak on, over that which was asked for
-  double imbalance = 0.;  ///< of all energy, over what was dissipated
-  double last = 0.;       ///< stress over strength
+  double stiffness = 0.;   ///< over that of a classical bar
+  double strength = 0.;    ///< over that which was asked for
+  double energy = 0.;      ///< dissipated from the peak on, over that which was asked for of the weak row
+  double dissipated = 0.;  ///< in all, over that which was asked for of the gauge
+  double imbalance = 0.;   ///< of all energy, over what was dissipated
+  double last = 0.;        ///< stress over strength
 };
 
 /// To an elongation well beyond the critical stretch's opening of a crack.
 template <int dim>
-Pull pull(const Bar<dim>& bar, const mesh::Mesh<dim>& whole, double elongation, int increments) {
-  SpecimenBodyIn<dim> test(bar.specimen(whole));
+Pull pull(const Bar<dim>& bar, const SpecimenIn<dim>& specimen, double elongation, int increments) {
+  SpecimenBodyIn<dim> test(specimen);
   const auto to = [&](int i) { return elongation * std::pow(static_cast<double>(i) / increments, 2.); };
   Pull result;
   constexpr double plateau = 0.99;
@@ -86,6 +93,7 @@ Pull pull(const Bar<dim>& bar, const mesh::Mesh<dim>& whole, double elongation, 
   }
   const auto energies = test.body.energies();
   result.energy = (energies.dissipated - before_the_fall) / (weakness * energy * bar.area());
+  result.dissipated = energies.dissipated / (energy * bar.area());
   result.imbalance = (energies.external_work - energies.elastic - energies.dissipated) / energies.dissipated;
   result.last = stress / strength;
   return result;
@@ -96,8 +104,7 @@ class SofteningBar : public testing::TestWithParam<std::tuple<Softening, double>
 /// Ten horizons wide. What is dissipated before the peak is spread over the whole gauge, and not part of the crack's.
 TEST_P(SofteningBar, HasTheStrengthAndTheEnergyThatWereAskedFor) {
   Bar<2> bar{2.5, 30, 9, 3, 2.5 / 3., 7.5, std::get<0>(GetParam()), std::get<1>(GetParam())};
-  const auto result =
-      pull(bar, grid({bar.width, bar.gauge + 2 * bar.grip, bar.width * bar.size, bar.length()}), 0.25, 60);
+  const auto result = pull(bar, bar.specimen(mesh_of(bar)), 0.25, 60);
   EXPECT_NEAR(result.strength, weakness, 0.05);
   EXPECT_NEAR(result.energy, 1., bar.poissons_ratio == 0.2 ? 0.08 : 0.05);
   EXPECT_LT(std::abs(result.imbalance), 0.05);
@@ -109,12 +116,41 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SofteningBar,
                                          std::tuple(Softening::exponential, 1. / 3.),
                                          std::tuple(Softening::bilinear, 0.2)));
 
+/// Of two halves that are half as strong where they meet, the upper one as stiff or three times as stiff. Twenty
+/// horizons wide: at its sides bonds are missing.
+TEST(SofteningInterface, HasTheStrengthAndTheEnergyThatWereAskedFor) {
+  constexpr double share = 0.5;
+  const Bar<2> bar{2.5, 60, 8, 0, 2.5 / 3., 7.5};
+  for (const double ratio : {1., 3.}) {
+    SCOPED_TRACE(ratio);
+    auto specimen = bar.specimen(mesh_of(bar));
+    const auto lower = specimen.others[0];
+    auto upper = materials::elastic_material<2>(specimen.elastic_model, ratio * youngs_modulus, bar.poissons_ratio,
+                                                bar.characteristic_length, bar.horizon);
+    upper.toughness = toughness_of(upper, bar.softening, 1.);
+    specimen.whole.block_names = {"lower", "upper"};
+    for (int e = 0; e < specimen.whole.n_elements(); ++e) {
+      specimen.whole.blocks[e] = mesh::centroid(specimen.whole, e)[1] > 0.5 * bar.length() ? 1 : 0;
+    }
+    specimen.others = {upper};
+    specimen.material_of_block = {{"lower", 0}, {"upper", 1}};
+    specimen.interface = materials::softening_toughness(lower, upper, bar.softening, share * strength, share * energy);
+
+    const auto result = pull(bar, specimen, 0.25, 30);
+
+    EXPECT_NEAR(result.strength, share, 0.05 * share);
+    EXPECT_NEAR(result.dissipated, share, 0.05 * share);  // nothing else softens
+    EXPECT_LT(std::abs(result.imbalance), 0.05);
+    EXPECT_LT(result.last, 0.05);
+  }
+}
+
 /// At surfaces, where bonds are missing, softening begins earlier: what that costs goes with the surface over the area.
 TEST(SofteningBarIn3d, HasTheStrengthThatWasAskedForFarFromItsSurfaces) {
   std::vector<double> strengths;
   for (const int width : {4, 8}) {  // two and four horizons
     const Bar<3> bar{1., width, 5, 2, 1. / 3., 2., Softening::bilinear, 0.25};
-    const auto result = pull(bar, brick({bar.width, bar.width, bar.gauge + 2 * bar.grip}), 0.004, 12);
+    const auto result = pull(bar, bar.specimen(mesh_of(bar)), 0.004, 12);
     EXPECT_NEAR(result.stiffness, 1., 0.02);
     strengths.push_back(result.strength);
   }
@@ -125,7 +161,7 @@ TEST(SofteningBarIn3d, HasTheStrengthThatWasAskedForFarFromItsSurfaces) {
 
 TEST(SofteningBarIn3d, TakesTheEnergyThatWasAskedFor) {
   const Bar<3> bar{1., 6, 5, 2, 1. / 3., 2., Softening::bilinear, 0.25};
-  const auto result = pull(bar, brick({bar.width, bar.width, bar.gauge + 2 * bar.grip}), 0.2, 30);
+  const auto result = pull(bar, bar.specimen(mesh_of(bar)), 0.2, 30);
   EXPECT_NEAR(result.energy, 1., 0.1);  // some bonds are missing at its surfaces
   EXPECT_LT(std::abs(result.imbalance), 0.05);
 }
