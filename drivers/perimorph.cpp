@@ -135,8 +135,7 @@ int main(int argc, char** argv) {
 
   std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is then an error in order, like a full disk
   std::signal(SIGUSR1, SIG_IGN);  // as long as there is nothing to write into a checkpoint
-  ::setenv("OMPI_MCA_ess_singleton_isolated", "1",
-           0);  // one process without mpiexec: Open MPI needs no daemon beside it
+  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);  // without mpiexec Open MPI needs no daemon either
   Tpetra::ScopeGuard mpi(&argc, &argv);
   const auto comm = Tpetra::getDefaultComm();
   const auto fail = [&](const char* kind, const std::exception& error, int status) {

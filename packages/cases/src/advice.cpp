@@ -95,8 +95,7 @@ class Advice {
     const double length = length_ / size_;
     if (!breaks_ || length >= least_length || input_.dimension != 2) return;  // in three dimensions little is held up
     const auto& numerical = input_.numerical;
-    if (numerical.discontinuous == discretization::DiscontinuousElements::never)
-      return;  // of which there is an advice already
+    if (numerical.discontinuous == discretization::DiscontinuousElements::never) return;  // check_parting() has said it
     const auto& material = input_.material;
     const double resistance =
         model::lattice_resistance(numerical.discontinuous, numerical.peridynamic_stiffness, length,

@@ -1,6 +1,6 @@
 #include "perimorph/output/probes.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "perimorph/base/errors.hpp"
@@ -14,19 +14,20 @@ using fracture::Body;
 
 namespace {
 
-/// Stress inside an element from that at its material points, which are as many as its corners.
+/// Stress inside an element from that at its material points: interpolated from corners, at which it is such that it
+/// meets that at the points, or comes closest if there are more of them.
 template <int dim>
 base::Voigt<dim> interpolated_stress(const Body<dim>& body, const elements::Location& at) {
   const auto model = body.model();
   const auto stress = operators::stress_at_points(model, at.element, body.displacement(), body.system().at_points());
-  const auto n = static_cast<int>(stress.size());
-  PERIMORPH_ASSERT(n == at.shape.size(), "stress at {} points of an element with {} corners", n, at.shape.size());
-  Eigen::MatrixXd shapes(n, n), values(n, base::n_voigt<dim>);
+  const auto n = static_cast<int>(stress.size()), n_corners = static_cast<int>(at.shape.size());
+  PERIMORPH_ASSERT(n >= n_corners, "stress at {} points of an element with {} corners", n, n_corners);
+  Eigen::MatrixXd shapes(n, n_corners), values(n, base::n_voigt<dim>);
   for (int q = 0; q < n; ++q) {
     shapes.row(q) = model.points.shape(at.element, q);
     values.row(q) = stress[q];
   }
-  return (at.shape * shapes.partialPivLu().solve(values)).transpose();
+  return (at.shape * shapes.householderQr().solve(values)).transpose();
 }
 
 template <int dim>

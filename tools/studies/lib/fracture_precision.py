@@ -254,7 +254,7 @@ def measure(dimension, studies, folder):
     rows = []
     if os.path.exists(file):  # studies that are not run again keep their rows
         with open(file) as stream:
-            rows = [{**row, "ratio": row.get("ratio", "")} for row in csv.DictReader(stream) if row["study"] not in studies]
+            rows = [row for row in csv.DictReader(stream) if row["study"] not in studies]
     for study in studies:
         for changes in STUDIES[dimension][study]:
             setting = {**DEFAULT, **changes}
