@@ -91,7 +91,7 @@ TEST(BrittleLaw, CountsOfTheStretchByCompressionAShare) {
   EXPECT_DOUBLE_EQ(counted(0.01, 0.), 0.01);
   EXPECT_DOUBLE_EQ(counted(0.01, 0.02), 0.006);   // tension across counts in full
   EXPECT_DOUBLE_EQ(counted(0.01, -0.02), 0.011);  // compression by a quarter
-  EXPECT_NEAR(counted(0., -0.2), 0.01, 1e-16);  // of a difference
+  EXPECT_NEAR(counted(0., -0.2), 0.01, 1e-16);    // of a difference
   EXPECT_EQ(BondLaw(0.01).counted_stretch(0.01, -5.), 0.01);
   EXPECT_EQ(law.scaled(2.).counted_stretch(0.01, -5.), law.counted_stretch(0.01, -5.));
 }
