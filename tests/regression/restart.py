@@ -38,6 +38,15 @@ class Continued(GrowingCrack):
                 self.assertGreater(int(whole[0][-1]["broken_bonds"]), 0)
                 self.assert_continues(whole, 14, *volume, ranks=ranks)
 
+    def test_with_windows_it_ends_with_the_same_bits(self):
+        windows = [*EVERY, "--set", "Solver/Largest Window=0.9", "--set", "Solver/Window Radius=1"]
+        for ranks in [1, 2]:
+            with self.subTest(ranks=ranks):
+                self.run_until(INCREMENTS, *windows, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 0)
+                self.assert_continues(whole, 14, *windows, ranks=ranks)
+
     def test_on_other_ranks_the_same_bonds_break(self):
         rows, times, steps = self.uninterrupted()
         for before, after in [(1, 2), (3, 1)]:

@@ -54,6 +54,7 @@ struct SpecimenIn {
   double thermal_expansion = 0.;                    ///< of the body's material, as data sheets give it
   std::vector<discretization::TemperatureChange<dim>> temperature_changes = {};
   std::vector<std::string> symmetry_planes = {};  ///< groups
+  double window_radius = 0.;                      ///< of windows of any share; 0: none
 };
 using Specimen = SpecimenIn<2>;
 
@@ -112,6 +113,7 @@ model::NumericalOptions make_options(const SpecimenIn<dim>& specimen) {
   }
   options.breaking_fraction = specimen.breaking_fraction;
   options.points_per_direction = specimen.points_per_direction;
+  options.window = {specimen.window_radius, 1.};
   return options;
 }
 

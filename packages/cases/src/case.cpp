@@ -128,6 +128,9 @@ void complete_lengths(Case& input) {
   numerical.growth_outer_radius = input.morphing.growth_outer_radius * horizon;
   numerical.short_range_cut_off =
       horizon * input.solver.short_range_cut_off.value_or(operators::default_short_range_cut_off(input.dimension));
+  if (input.solver.windows) {
+    numerical.window.radius = horizon * input.solver.window_radius.value_or(default_window_radius(input.dimension));
+  }
   for (Seed& seed : input.morphing.seeds) {
     if (seed.shape != SeedShape::automatic) continue;
     if (seed.inner_radius == 0.) seed.inner_radius = numerical.growth_inner_radius;

@@ -16,10 +16,13 @@ using operators::PreconditionerMatrix;
 
 constexpr std::array<Choice<PreconditionerMatrix>, 2> preconditioner_matrices{
     {{"Coupled", PreconditionerMatrix::coupled}, {"Short-Range", PreconditionerMatrix::short_range}}};
+constexpr std::array<Choice<bool>, 2> on_and_off{{{"On", true}, {"Off", false}}};
 constexpr std::array<Choice<OperatorForm>, 3> operator_forms{
     {{"CRS", OperatorForm::crs}, {"Matrix-Free", OperatorForm::matrix_free}, {"On-the-Fly", OperatorForm::on_the_fly}}};
 
 }  // namespace
+
+double default_window_radius(int dimension) { return dimension == 2 ? 4. : 2.5; }
 
 void declare(const input::Section& decisive, Solver& solver, model::NumericalOptions& numerical) {
   using namespace input;
@@ -49,6 +52,17 @@ void declare(const input::Section& decisive, Solver& solver, model::NumericalOpt
   section.parameter("Damage Tolerance", numerical.damage_tolerance, between(0., 1.),
                     "The same as Tolerance, in solutions after which bonds break [-]; not below Tolerance. Too loose, "
                     "and bonds break in another order.");
+  section.choice("Windows", solver.windows, on_and_off,
+                 "While bonds break, solve in a window around those that broke last, and for the rest of the body by a "
+                 "few far fields, which follow from earlier solutions; where the residual of the whole body is too "
+                 "large then, the whole body is solved. \"Off\" always solves the whole body, as with contact.");
+  section.optional("Window Radius", solver.window_radius, default_window_radius(2), at_least(1.),
+                   fmt::format("Of windows, in horizons [-]; {} in two dimensions and {} in three if not given.",
+                               default_window_radius(2), default_window_radius(3)));
+  section.parameter(
+      "Largest Window", numerical.window.largest_share, between(0., 1.),
+      "Share of the nodes of the body [-] that a window may have; where it would have more, the whole body "
+      "is solved, which costs little more then.");
   section.parameter(
       "Maximum Iterations", numerical.solver.max_iterations, count(),
       "Of conjugate gradients in one solution. When they do not suffice, the system is tried twice more with other "

@@ -66,11 +66,18 @@ base::ConstField Space<dim>::expand_change(const Vector& x) const {
   if (!with_images_.empty()) std::copy_n(all.data(), all.extent(0), with_images_.begin());
   const base::Field change(with_images_.empty() ? all.data() : with_images_.data(),
                            static_cast<base::Field::size_type>(n_local()));
+  complete_change(change);
+  return change;
+}
+
+template <int dim>
+void Space<dim>::complete_change(base::Field change) const {
+  PERIMORPH_ASSERT(static_cast<std::size_t>(change.size()) == n_local(), "{} values for {} degrees of freedom",
+                   change.size(), n_local());
   for (const int dof : prescribed_) change[dof] = 0.;
   frames_.turn_back(change);
   groups_.project(change);
   dofs_.complete_images(change);
-  return change;
 }
 
 template <int dim>

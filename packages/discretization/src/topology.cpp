@@ -172,16 +172,24 @@ void Topology<dim>::note_flags(const std::vector<FlagPoint<dim>>& flag_points) {
 }
 
 template <int dim>
+std::vector<int> Topology<dim>::old_nodes() const {
+  std::vector<int> old_nodes(dofs_->n_nodes(), 0);
+  for (int e = 0; e < mesh_.n_elements(); ++e) {
+    for (int k = 0; k < mesh_.n_corners(e); ++k) old_nodes[dofs_->nodes_of(e)[k]] = old_dofs().nodes_of(e)[k];
+  }
+  return old_nodes;
+}
+
+template <int dim>
 std::vector<double> Topology<dim>::carried_over(const std::vector<double>& displacement) const {
   std::vector<double> carried(static_cast<std::size_t>(dofs_->n_nodes()) * dim, 0.);
   if (displacement.empty()) return carried;
   PERIMORPH_ASSERT(displacement.size() == static_cast<std::size_t>(old_dofs().n_nodes()) * dim,
                    "{} displacements of {} nodes", displacement.size(), old_dofs().n_nodes());
-  for (int e = 0; e < mesh_.n_elements(); ++e) {
-    for (int k = 0; k < mesh_.n_corners(e); ++k) {
-      std::copy_n(displacement.begin() + static_cast<std::ptrdiff_t>(old_dofs().nodes_of(e)[k]) * dim, dim,
-                  carried.begin() + static_cast<std::ptrdiff_t>(dofs_->nodes_of(e)[k]) * dim);
-    }
+  const auto old_nodes = this->old_nodes();
+  for (std::size_t node = 0; node < old_nodes.size(); ++node) {
+    std::copy_n(displacement.begin() + static_cast<std::ptrdiff_t>(old_nodes[node]) * dim, dim,
+                carried.begin() + static_cast<std::ptrdiff_t>(node) * dim);
   }
   return carried;
 }

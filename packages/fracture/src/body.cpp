@@ -41,8 +41,13 @@ discretization::TopologyOptions<dim> topology_options(const mesh::Mesh<dim>& mes
           problem.crack_faces};
 }
 
-operators::SystemOptions system_options(const NumericalOptions& options, double friction) {
-  return {options.operator_form, options.preconditioner_matrix, options.short_range_cut_off, friction};
+/// Without windows where crack faces are in contact: they would save the first of several solutions in each search for
+/// those that are closed (DECISIONS.md, 49).
+template <int dim>
+operators::SystemOptions system_options(const NumericalOptions& options, const Problem<dim>& problem) {
+  const bool has_windows = problem.crack_faces == discretization::CrackFaces::free;
+  return {options.operator_form, options.preconditioner_matrix, options.short_range_cut_off, problem.friction,
+          has_windows ? options.window : operators::WindowOptions()};
 }
 
 }  // namespace
@@ -58,7 +63,7 @@ Body<dim>::Body(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim
       dirichlet_(*comm, mesh, problem.displacements, problem.rigid_groups),
       system_(*comm, topology_, dirichlet_, problem.loads,
               {elasticity(mesh, problem, options), model::eigenstrain(mesh, topology_.points(), problem)},
-              system_options(options, problem.friction), profile),
+              system_options(options, problem), profile),
       equilibrium_(*comm, options.solver, profile) {
   PERIMORPH_ASSERT(options.tolerance > 0. && options.damage_tolerance >= options.tolerance, "tolerances {} and {}",
                    options.tolerance, options.damage_tolerance);
@@ -120,10 +125,22 @@ void Body<dim>::rebuild(bool has_grown) {
     if (change.numbering) move_to_new_numbering();
     if (dirichlet_.has_begun() && state_.load_step != 0.) note_starts();
   }
-  if (has_other_supports) equilibrium_.linear_solver().forget();  // multigrid knows nothing of unknowns that were none
+  if (has_other_supports) equilibrium_.forget();  // multigrid knows nothing of unknowns that were none
   assemble();
+  for (auto flag = state_.flag_points.rbegin();
+       flag != state_.flag_points.rend() && flag->growth == state_.flag_points.back().growth; ++flag) {
+    system_.expect_breaks(Eigen::Map<const base::Point<dim>>(flag->centroid.data()));
+  }
   if (measure_ && state_.counts.topologies > 1) renew_forces();  // from which the work goes on
   state_.break_calls_before_topology = state_.break_calls;
+}
+
+/// WindowSolver::set_operator().
+template <int dim>
+std::vector<int> Body<dim>::owned_old_nodes() const {
+  auto nodes = topology_.old_nodes();
+  nodes.resize(topology_.dofs().n_owned_nodes());
+  return nodes;
 }
 
 /// Where the supports that have begun find their nodes.
@@ -153,6 +170,7 @@ void Body<dim>::assemble() {
   const auto near_null_space = solvers::rigid_body_modes<dim>(*source.matrix, source.coordinates);
   space.turn(*near_null_space.modes);
   auto& solver = equilibrium_.linear_solver();
+  equilibrium_.windows().set_operator(system_.tangent(), source.matrix, near_null_space, owned_old_nodes());
   solver.set_operator(system_.tangent(), source.matrix, near_null_space, source.basis, std::move(source.from_old),
                       [this] { return system_.whole_matrix(); });
   if (!space.groups().is_empty()) solver.set_groups({space.groups().owned_dofs(), space.groups().free_motions()});
@@ -180,7 +198,8 @@ void Body<dim>::balance(Accuracy accuracy) {
     system_.evaluate(u);
   }
   const double tolerance = accuracy == Accuracy::breaking ? options_.damage_tolerance : options_.tolerance;
-  const auto outcome = equilibrium_.find(system_, u, {tolerance, state_.force_scale, state_.counts.broken_bonds > 0});
+  const auto outcome = equilibrium_.find(
+      system_, u, {tolerance, state_.force_scale, state_.counts.broken_bonds > 0, accuracy == Accuracy::breaking});
   count(outcome);
   if (!outcome.converged) {
     const auto reason = reason_for(outcome.trouble);
@@ -315,7 +334,7 @@ template <int dim>
 void Body<dim>::publish(const bonds::BondChange& change) {
   topology_.take(change);
   const auto changed = system_.take(change);
-  if (!change.is_empty()) equilibrium_.linear_solver().note_change(changed);
+  if (!change.is_empty()) equilibrium_.note_change(changed);
 }
 
 template <int dim>
@@ -357,7 +376,8 @@ void Body<dim>::restore(const discretization::SavedState<dim>& saved) {
 
 template <int dim>
 void Body<dim>::forget_solves() {
-  equilibrium_.linear_solver().forget();
+  equilibrium_.forget();
+  system_.forget_window();
   if (!topology_.bonds().softens() && problem_.crack_faces == discretization::CrackFaces::free) return;
   topology_.recount_damage();
   assemble();

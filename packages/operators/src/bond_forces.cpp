@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "bond_sums.hpp"
 #include "perimorph/base/errors.hpp"
@@ -42,19 +43,38 @@ RowPair mean_decay(const RowPair& squared_lengths, const materials::Micromodulus
 }  // namespace
 
 template <int dim>
-BondForces<dim>::BondForces(const CoupledModel<dim>& model)
-    : ElasticTerm<dim>(model), first_packet_(model.mesh.n_elements(), -1) {
-  make_packets();
-  make_blocks();
-  if (model.has_dilatation()) make_dilatation();
+BondForces<dim>::BondForces(const CoupledModel<dim>& model, MeshPart part)
+    : ElasticTerm<dim>(model), part_(std::move(part)), first_packet_(model.mesh.n_elements(), -1) {
+  const auto pairs = this->pairs();
+  make_packets(pairs);
+  make_blocks(pairs);
+  if (model.has_dilatation()) make_dilatation(pairs);
+}
+
+/// Of the part, ascending.
+template <int dim>
+std::vector<int> BondForces<dim>::pairs() const {
+  const auto& bonds = model_.bonds;
+  std::vector<int> pairs;
+  if (part_.is_whole()) {
+    pairs.resize(bonds.n_pairs());
+    std::iota(pairs.begin(), pairs.end(), 0);
+    return pairs;
+  }
+  for (int e = 0; e < model_.mesh.n_elements(); ++e) {
+    if (part_.holds_element(e)) pairs.insert(pairs.end(), bonds.pairs_of(e).begin(), bonds.pairs_of(e).end());
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
 }
 
 /// The points of the elements that have bonds, in fours.
 template <int dim>
-void BondForces<dim>::make_packets() {
+void BondForces<dim>::make_packets(const std::vector<int>& pairs) {
   const auto& bonds = model_.bonds;
   std::vector<char> has_bonds(model_.mesh.n_elements(), 0);
-  for (int e = 0; e < model_.mesh.n_elements(); ++e) has_bonds[e] = !bonds.pairs_of(e).empty();
+  for (const int p : pairs) has_bonds[bonds.pair(p).first] = has_bonds[bonds.pair(p).second] = 1;
   for (int e = model_.mesh.n_real_elements(); e < model_.mesh.n_elements(); ++e) {
     if (has_bonds[e] != 0) has_bonds[model_.mesh.image(e).element] = 1;  // whose dilatation it has
   }
@@ -81,7 +101,7 @@ void BondForces<dim>::make_packets() {
 /// Pairs of elements by their first element, in the order of their second one's packets, each cut into blocks of two
 /// packets.
 template <int dim>
-void BondForces<dim>::make_blocks() {
+void BondForces<dim>::make_blocks(const std::vector<int>& pairs) {
   const auto& bonds = model_.bonds;
   struct Block {
     int second;  ///< packet
@@ -89,7 +109,7 @@ void BondForces<dim>::make_blocks() {
     std::array<float, n_lanes* n_lanes> stiffness = {};  ///< where the mask has a bit; not on the fly
   };
   std::vector<std::vector<int>> pairs_from(model_.mesh.n_elements());
-  for (int p = 0; p < bonds.n_pairs(); ++p) pairs_from[bonds.pair(p).first].push_back(p);
+  for (const int p : pairs) pairs_from[bonds.pair(p).first].push_back(p);
   const auto n_packets = [&](int e) { return (model_.points.count(e) + n_lanes - 1) / n_lanes; };
   std::vector<std::vector<Block>> from_packet;
   for (int e = 0; e < model_.mesh.n_elements(); ++e) {
@@ -129,7 +149,7 @@ void BondForces<dim>::make_blocks() {
 }
 
 template <int dim>
-void BondForces<dim>::make_dilatation() {
+void BondForces<dim>::make_dilatation(const std::vector<int>& pairs) {
   constexpr int most_lanes = (elements::max_points + n_lanes - 1) / n_lanes * n_lanes;
   const auto& mesh = model_.mesh;
   std::vector<base::GlobalId> ids;
@@ -152,12 +172,13 @@ void BondForces<dim>::make_dilatation() {
   }
   dilatation_.emplace(model_.dofs.owned_dofs()->getComm(), ids, n_owned, std::move(factors), std::move(twins));
   stretches_.resize(packets_.size() * n_lanes);
-  model_.bonds.for_each_bond([&](const bonds::Bond<dim>& bond) {
+  const auto add = [&](const bonds::Bond<dim>& bond) {
     if (bond.is_broken) return;
     const double weight = weight_of(bond, stiffness_left(model_, bond));
     dilatation_->add(lane_of(bond.first_element, bond.first_end), weight);
     dilatation_->add(lane_of(bond.second_element, bond.second_end), weight);
-  });
+  };
+  for (const int p : pairs) model_.bonds.for_each_bond(p, add);
 }
 
 /// Where a point stands among those of the packets.
@@ -356,6 +377,7 @@ void BondForces<dim>::take(const bonds::BondChange& change) {
                    change.broken.back(), model_.bonds.n_bonds());
   for (const auto id : change.broken) {
     const auto bond = model_.bonds.bond(id);
+    if (!holds({bond.first_element, bond.second_element})) continue;
     if (dilatation_) {
       const double weight = weight_of(bond, stiffness_left(model_, bond));
       dilatation_->remove(lane_of(bond.first_element, bond.first_end), weight);
@@ -370,6 +392,7 @@ void BondForces<dim>::take(const bonds::BondChange& change) {
   }
   for (const auto& [id, stretch, loss] : change.softened) {
     const auto bond = model_.bonds.bond(id);
+    if (!holds({bond.first_element, bond.second_element})) continue;
     if (dilatation_) {
       const double weight = weight_of(bond, model_.bonds.stiffness(bond) * loss);
       dilatation_->weaken(lane_of(bond.first_element, bond.first_end), weight);

@@ -132,11 +132,55 @@ void ContactForces<dim>::prepare_tangent(base::ConstField u) {
 }
 
 template <int dim>
+std::vector<StiffenedBond<dim>> ContactForces<dim>::stiffened() const {
+  std::vector<StiffenedBond<dim>> bonds;
+  for (const auto& [i, by] : stiffened_) bonds.push_back({contacts_[i].bond, by});
+  return bonds;
+}
+
+template <int dim>
 void ContactForces<dim>::add_tangent_product(base::ConstField x, base::Field force) const {
   PERIMORPH_ASSERT(x.size() == force.size(), "{} displacements, {} forces", x.size(), force.size());
-  for (const auto& contact : contacts_) {
-    if (!contact.in_tangent.isZero(0.)) hold(contact, contact.in_tangent * opening(contact, x), force);
+  for (const auto& contact : contacts_) add_tangent_product(contact, x, force);
+}
+
+template <int dim>
+void ContactForces<dim>::add_tangent_product(const Contact& contact, base::ConstField x, base::Field force) const {
+  if (!contact.in_tangent.isZero(0.)) hold(contact, contact.in_tangent * opening(contact, x), force);
+}
+
+/// Those of a part's elements, with the springs that the whole has.
+template <int dim>
+class ContactForces<dim>::Within : public ForceTerm<dim> {
+ public:
+  Within(const ContactForces& whole, MeshPart part) : whole_(whole), part_(std::move(part)) { find(); }
+
+  void add_force(base::ConstField /*u*/, base::Field /*force*/) const override {}
+  void add_tangent_product(base::ConstField x, base::Field force) const override {
+    for (const auto i : mine_) whole_.add_tangent_product(whole_.contacts_[i], x, force);
   }
+  void take(const bonds::BondChange& /*change*/) override { find(); }
+  void add_to(StiffnessMatrix<dim>& /*matrix*/) const override {}
+  double energy(base::ConstField /*u*/) const override { return 0.; }
+  std::size_t bytes() const override { return mine_.size() * sizeof(std::size_t); }
+
+ private:
+  const ContactForces& whole_;
+  MeshPart part_;
+  std::vector<std::size_t> mine_;
+  std::size_t n_seen_ = 0;
+
+  void find() {
+    for (; n_seen_ < whole_.contacts_.size(); ++n_seen_) {
+      const auto& bond = whole_.contacts_[n_seen_].bond;
+      if (part_.holds_element(bond.first_element) || part_.holds_element(bond.second_element)) mine_.push_back(n_seen_);
+    }
+  }
+};
+
+template <int dim>
+Teuchos::RCP<ForceTerm<dim>> ContactForces<dim>::within(const MeshPart& part) const {
+  return Teuchos::rcp(new Within(*this, part));
 }
 
 template <int dim>

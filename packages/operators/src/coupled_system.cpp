@@ -28,7 +28,8 @@ CoupledSystem<dim>::CoupledSystem(const base::Comm& comm, const discretization::
       options_(options),
       profile_(profile),
       elasticity_(std::move(response.elasticity)),
-      eigenstrain_(std::move(response.eigenstrain)) {
+      eigenstrain_(std::move(response.eigenstrain)),
+      window_(options.window) {
   PERIMORPH_ASSERT(options.preconditioner_matrix == PreconditionerMatrix::coupled || options.short_range_cut_off > 0.,
                    "short-range bonds up to {}", options.short_range_cut_off);
   PERIMORPH_ASSERT(!elasticity_.has_dilatation() || options.operator_form != OperatorForm::crs,
@@ -89,6 +90,8 @@ typename CoupledSystem<dim>::PreconditionerSource CoupledSystem<dim>::assemble(s
   make_terms(supports);
   tangent_ = Teuchos::rcp(new MatrixFreeTangent<dim>(*space_, terms_, supports.constraints));
   make_matrices(supports);
+  constraints_ = supports.constraints;
+  window_.clear();
 
   PreconditionerSource source{(short_range_ ? short_range_ : matrix_)->matrix(), basis_, {}, std::nullopt};
   for (int n = 0; n < topology_.dofs().n_owned_nodes(); ++n) {
@@ -129,6 +132,7 @@ std::vector<int> CoupledSystem<dim>::take(const bonds::BondChange& change) {
   std::vector<int> changed;
   if (matrix_) changed = matrix_->take(change);
   if (short_range_) changed = short_range_->take(change);
+  window_.take(change, model());
   if (breaks_change_more()) has_forces_ = false;
   if (has_forces_) subtract_lost_forces(model(), change, at_points_, internal_);
   return changed;
@@ -264,6 +268,7 @@ std::vector<int> CoupledSystem<dim>::prepare_tangent(base::ConstField u) {
   std::vector<int> changed;
   if (matrix_) changed = matrix_->update_tangent();
   if (short_range_) changed = short_range_->update_tangent();
+  if (!contact_.is_null()) window_.take(contact_->stiffened());
   return changed;
 }
 
@@ -271,6 +276,13 @@ template <int dim>
 Teuchos::RCP<NonlinearSystem::Operator> CoupledSystem<dim>::tangent() const {
   if (options_.operator_form == OperatorForm::crs) return matrix_->linear_operator();
   return tangent_;
+}
+
+template <int dim>
+std::shared_ptr<Window> CoupledSystem<dim>::window() {
+  const auto timer = profile_.measure(Phase::preconditioner);
+  const auto model = this->model();
+  return window_.find({model, *space_, topology_.element_exchange(), terms_, constraints_, basis_.get()});
 }
 
 template <int dim>

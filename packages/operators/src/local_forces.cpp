@@ -71,10 +71,10 @@ void subtract_divergence(const CoupledModel<dim>& model, int e, int q, const bas
 }  // namespace
 
 template <int dim>
-LocalForces<dim>::LocalForces(const CoupledModel<dim>& model) : ElasticTerm<dim>(model) {
+LocalForces<dim>::LocalForces(const CoupledModel<dim>& model, const MeshPart& part) : ElasticTerm<dim>(model) {
   std::vector<std::size_t> n_elements;  // in each group
   for (int e = 0; e < model.mesh.n_elements(); ++e) {
-    if (!model.bonds.is_active(e) || model.elasticity.is_zero(e)) continue;
+    if (!part.holds_element(e) || !model.bonds.is_active(e) || model.elasticity.is_zero(e)) continue;
     const int n = model.mesh.n_corners(e), n_points = model.points.count(e);
     Group& g = group(n, n_points, model.elasticity.is_e0(e) ? &model.elasticity.e0(e) : nullptr);
     n_elements.resize(groups_.size(), 0);

@@ -47,22 +47,44 @@ PointBasis<dim>::PointBasis(const CoupledModel<dim>& model, const discretization
         std::all_of(nodes, nodes + n, [&](int node) { return rank_of(node) == rank_of(nodes[0]); });
     holds_[e] = is_one_ranks && is_suitable(model, space, e);
     if (!holds_[e] || nodes[0] >= dofs.n_owned_nodes()) continue;
-    elements_.push_back({nodes_.size(), n, &table_of(model.points.reference(e))});
+    elements_.push_back({nodes_.size(), n, table_of(model.points.reference(e))});
     nodes_.insert(nodes_.end(), nodes, nodes + n);
     for (int q = 0; q < n; ++q) points_.push_back(model.points.position(model.points.first(e) + q));
   }
 }
 
 template <int dim>
-const typename PointBasis<dim>::CornerMatrix& PointBasis<dim>::table_of(
+PointBasis<dim> PointBasis<dim>::within(const std::vector<int>& nodes, const Teuchos::RCP<const Map>& unknowns) const {
+  PERIMORPH_ASSERT(unknowns->getNodeNumElements() == nodes.size() * dim, "{} unknowns of {} nodes",
+                   unknowns->getNodeNumElements(), nodes.size());
+  PointBasis part(*this);
+  part.unknowns_ = unknowns;
+  part.elements_.clear();
+  part.nodes_.clear();
+  for (const auto& [first, n, added] : elements_) {
+    if (!std::binary_search(nodes.begin(), nodes.end(), nodes_[first])) continue;
+    part.elements_.push_back({part.nodes_.size(), n, added});
+    for (int k = 0; k < n; ++k) {
+      const auto place = std::lower_bound(nodes.begin(), nodes.end(), nodes_[first + k]);
+      PERIMORPH_ASSERT(place != nodes.end() && *place == nodes_[first + k], "node {} without node {}", nodes_[first],
+                       nodes_[first + k]);
+      part.nodes_.push_back(static_cast<int>(place - nodes.begin()));
+    }
+  }
+  return part;
+}
+
+template <int dim>
+std::shared_ptr<const typename PointBasis<dim>::CornerMatrix> PointBasis<dim>::table_of(
     const elements::ReferenceElement<dim>& reference) {
-  const auto [entry, is_new] = tables_.try_emplace(&reference);
-  if (is_new) {
+  auto& table = tables_[&reference];
+  if (table == nullptr) {
     CornerMatrix at_points(reference.n_points, reference.n_corners);
     for (int q = 0; q < reference.n_points; ++q) at_points.row(q) = reference.shape[q];
-    entry->second = at_points.inverse() - CornerMatrix::Identity(reference.n_points, reference.n_corners);
+    table = std::make_shared<const CornerMatrix>(at_points.inverse() -
+                                                 CornerMatrix::Identity(reference.n_points, reference.n_corners));
   }
-  return entry->second;
+  return table;
 }
 
 template <int dim>

@@ -1,5 +1,6 @@
 #include "perimorph/operators/supports.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "perimorph/base/errors.hpp"
@@ -45,6 +46,16 @@ void Anchors<dim>::add_tangent_product(base::ConstField x, base::Field force) co
 template <int dim>
 void Anchors<dim>::add_to(StiffnessMatrix<dim>& matrix) const {
   for (const auto& [dof, stiffness] : springs_) matrix.add_diagonal(dof, stiffness);
+}
+
+template <int dim>
+Teuchos::RCP<ForceTerm<dim>> Anchors<dim>::within(const MeshPart& part) const {
+  const auto those = Teuchos::rcp(new Anchors(*this));
+  auto& springs = those->springs_;
+  springs.erase(std::remove_if(springs.begin(), springs.end(),
+                               [&](const Spring& spring) { return !part.holds_node(spring.dof / dim); }),
+                springs.end());
+  return those;
 }
 
 template <int dim>

@@ -1,11 +1,12 @@
 #pragma once
 
-#ifdef __SSE__
+#if defined(__SSE__) || defined(__F16C__)
 #include <immintrin.h>
 #endif
 
 #include <Eigen/Core>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "ghost_exchange.hpp"
@@ -13,13 +14,17 @@
 
 namespace perimorph::solvers {
 
-/// The rows of this rank of a sparse matrix of dense blocks (rows, cols), in single precision. The vectors that it is
-/// applied to hold the owned blocks first, then copies of others', which `ghosts()` brings up to date, and `padding`
-/// more numbers.
-template <int rows, int cols>
+/// The rows of this rank of a sparse matrix of dense blocks (rows, cols), in single or half precision. The vectors that
+/// it is applied to hold the owned blocks first, then copies of others', which `ghosts()` brings up to date, and
+/// `padding` more numbers; they are in single precision.
+///
+/// In half precision, for square matrices, each row has a power of two as its unit, and its diagonal block is in single
+/// precision: it takes up what the others have been rounded by, so that what moves as one still feels no force.
+template <int rows, int cols, class Number = float>
 class BlockMatrix {
  public:
   using Vector = Eigen::Matrix<float, rows, 1>;
+  using Block = Eigen::Matrix<float, rows, cols>;
 
   /// @param matrix whose rows and columns come in blocks: the unknowns of a node or aggregate are numbered one after
   /// the other. Collective.
@@ -36,9 +41,30 @@ class BlockMatrix {
   const GhostExchange<cols>& ghosts() const { return ghosts_; }
 
   /// @param block from first(row) to end(row)
-  Eigen::Matrix<float, rows, cols> block(std::size_t block) const;
+  Block block(int row, std::size_t block) const;
 
-  /// Sum of the blocks from `begin` to `end` of a row times x.
+  /// Sum of the blocks from `begin` to `end` of a row times x; the diagonal one is not among them, or the row is whole.
+  Vector product(int row, std::size_t begin, std::size_t end, const float* x) const {
+    if constexpr (is_half) {
+      return units_[row] * product(begin, end, x);
+    } else {
+      return product(begin, end, x);
+    }
+  }
+  Vector product(int row, const float* x) const {
+    Vector sum = product(row, first_[row], first_[row + 1], x);
+    if constexpr (is_half) {
+      sum += diagonal_[row] * Eigen::Map<const Vector>(x + static_cast<std::ptrdiff_t>(row) * cols);
+    }
+    return sum;
+  }
+
+  static constexpr int padding = 1;
+
+ private:
+  static constexpr bool is_half = std::is_same_v<Number, Eigen::half>;
+  static_assert(!is_half || (rows == cols && rows <= 4), "square matrices with blocks of up to four rows");
+
   Vector product(std::size_t begin, std::size_t end, const float* x) const {
     Lanes even = Lanes::Zero(), odd = Lanes::Zero();  // two sums, as one would wait for itself
     std::size_t b = begin;
@@ -51,11 +77,7 @@ class BlockMatrix {
     if constexpr (side_by_side == 2) return even.template head<rows>() + even.template tail<rows>();
     return even.template head<rows>();
   }
-  Vector product(int row, const float* x) const { return product(first_[row], first_[row + 1], x); }
 
-  static constexpr int padding = 1;
-
- private:
   // A block is stored column by column in groups of lanes: two columns of two rows, or one column padded to 4 or 8.
   static constexpr int side_by_side = rows == 2 ? 2 : 1;
   static constexpr int n_lanes = rows <= 4 ? 4 : 8;
@@ -66,20 +88,37 @@ class BlockMatrix {
   std::vector<std::size_t> first_;  ///< by row of blocks, and the end
   std::vector<int> columns_;
   std::vector<int> place_;  ///< of the matrix's local columns in a vector
-  std::vector<float, Eigen::aligned_allocator<float>> values_;
+  std::vector<Number, Eigen::aligned_allocator<Number>> values_;
+  std::vector<float> units_;           ///< by row; in half precision only
+  std::vector<Block> diagonal_;        ///< the same
   std::vector<std::size_t> block_at_;  ///< by block column, in the row that is being read
 
+  void take_diagonal(int row, std::vector<Block>& blocks);
+  void store(std::size_t block, const Block& values);
   std::size_t entry(std::size_t block, int r, int c) const {
     const int group = c / side_by_side, lane = c % side_by_side * rows + r;
     return (block * n_groups + group) * n_lanes + lane;
   }
 
   void add_product(std::size_t block, const float* x, Lanes& sum) const {
-    const float* values = values_.data() + block * n_groups * n_lanes;
+    const Number* values = values_.data() + block * n_groups * n_lanes;
     const float* right = x + static_cast<std::ptrdiff_t>(columns_[block]) * cols;
     for (int group = 0; group < n_groups; ++group) {
-      sum += Eigen::Map<const Lanes, Eigen::Aligned16>(values + group * n_lanes) * spread(right + group * side_by_side);
+      sum += lanes_at(values + group * n_lanes) * spread(right + group * side_by_side);
     }
+  }
+
+  static Eigen::Map<const Lanes, Eigen::Aligned16> lanes_at(const float* values) {
+    return Eigen::Map<const Lanes, Eigen::Aligned16>(values);
+  }
+  static Lanes lanes_at(const Eigen::half* values) {
+    Lanes lanes;
+#ifdef __F16C__
+    _mm_store_ps(lanes.data(), _mm_cvtph_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(values))));
+#else
+    for (int i = 0; i < n_lanes; ++i) lanes[i] = static_cast<float>(values[i]);
+#endif
+    return lanes;
   }
 
   /// The factors of a group's lanes.

@@ -73,12 +73,15 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
   // A severed body has no reactions left that its residual could relate to: then these shares of the largest reaction
   // so far count, and of the largest that a first guess took, which moves the supports alone.
   constexpr double of_solution = 0.1, of_first_guess = 1e-4;
-  constexpr double slow = 0.5;  // a correction that leaves more of the residual
+  constexpr double in_window = 0.5, far_off = 4.;  // of the largest residual: in a window, and in the whole body then
+  constexpr double slow = 0.5;                     // a correction that leaves more of the residual
 
   Vector residual(system.unknowns()), correction(system.unknowns());
   LooseAnchors anchors(system);
   Outcome outcome{false, 0, 0, ""};
   double last_residual = std::numeric_limits<double>::infinity();
+  double leeway = 1.;
+  std::shared_ptr<operators::Window> window;
   auto norms = system.residual(residual);
   for (;;) {
     if (!std::isfinite(norms.residual) || !std::isfinite(norms.reaction)) {
@@ -87,7 +90,7 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
     }
     if (outcome.linear_solves == 0) target.force_scale = std::max(target.force_scale, of_first_guess * norms.reaction);
     const double largest = target.tolerance * std::max(norms.reaction, target.force_scale);
-    if (norms.residual <= largest) {
+    if (norms.residual <= leeway * largest) {
       target.force_scale = std::max(target.force_scale, of_solution * norms.reaction);
       outcome.converged = true;
       return outcome;
@@ -101,13 +104,20 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
     if (norms.residual > slow * last_residual) anchors.loosen();
     last_residual = norms.residual;
 
-    solver_.note_change(system.prepare_tangent(u));
-    const auto linear = solver_.solve(residual, correction, 0.5 * largest);
-    outcome.cg_iterations += linear.iterations;
+    note_change(system.prepare_tangent(u));
     ++outcome.linear_solves;
-    if (!linear.converged) {
-      outcome.trouble = linear.trouble;
-      return outcome;
+    const bool may_be_by_window = target.by_window && outcome.linear_solves == 1;
+    if (may_be_by_window) window = system.window();
+    if (may_be_by_window && window != nullptr && windows_.solve(window, residual, correction, in_window * largest)) {
+      leeway = far_off;
+    } else {
+      const auto linear = solver_.solve(residual, correction, 0.5 * leeway * largest);
+      outcome.cg_iterations += linear.iterations;
+      if (!linear.converged) {
+        outcome.trouble = linear.trouble;
+        return outcome;
+      }
+      if (window != nullptr || (!target.by_window && windows_.has_learned())) windows_.learn(correction);
     }
     norms = correct(system, u, residual, correction);
   }

@@ -125,6 +125,7 @@ LinearSolver::Outcome LinearSolver::solve(const MultiVector& right_hand_side, Mu
     is_last = is_last_resort();
     solution.putScalar(0.);
     outcome = attempt(right_hand_side, solution, relative_tolerance);
+    if (!parameters_.has_resorts) break;
     if (!outcome.converged) go_to_next_resort(outcome);
   }
   if (!outcome.converged) {

@@ -33,7 +33,8 @@ Block<size> inverse(const Block<size>& block, double smallest) {
 }
 
 /// Gauss-Seidel on the matrix of one level.
-template <int size>
+/// @tparam Number of its matrix
+template <int size, class Number>
 class Smoother {
  public:
   explicit Smoother(const Matrix& matrix) : matrix_(matrix) {
@@ -42,7 +43,7 @@ class Smoother {
       std::size_t diagonal = matrix_.first(row);
       while (matrix_.column(diagonal) != row) ++diagonal;
       diagonal_.push_back(diagonal);
-      largest = std::max(largest, matrix_.block(diagonal).diagonal().maxCoeff());
+      largest = std::max(largest, matrix_.block(row, diagonal).diagonal().maxCoeff());
     }
     // A piece that floats has no stiffness but its anchors, and in single precision no forces but rounding errors.
     smallest_ = 1e-5 * largest;
@@ -59,7 +60,8 @@ class Smoother {
 
   int n_rows() const { return matrix_.n_rows(); }
   Values make_vector() const {
-    return Values(static_cast<std::size_t>(matrix_.ghosts().n_all()) * size + BlockMatrix<size, size>::padding, 0.f);
+    return Values(static_cast<std::size_t>(matrix_.ghosts().n_all()) * size + BlockMatrix<size, size, Number>::padding,
+                  0.f);
   }
   void update_ghosts(Values& x) const { matrix_.ghosts().update(x); }
 
@@ -67,7 +69,7 @@ class Smoother {
   void start(Values& b, Values& x) const {
     for (int row = 0; row < n_rows(); ++row) {
       at<size>(x, row) =
-          inverse_[row] * (at<size>(b, row) - matrix_.product(matrix_.first(row), diagonal_[row], x.data()));
+          inverse_[row] * (at<size>(b, row) - matrix_.product(row, matrix_.first(row), diagonal_[row], x.data()));
     }
     update_ghosts(x);
   }
@@ -76,7 +78,7 @@ class Smoother {
   void residual_after_start(Values& x, Values& residual) const {
     for (int row = 0; row < n_rows(); ++row) {
       at<size>(residual, row) = neglected_[row].cwiseProduct(at<size>(x, row)) -
-                                matrix_.product(diagonal_[row] + 1, matrix_.end(row), x.data());
+                                matrix_.product(row, diagonal_[row] + 1, matrix_.end(row), x.data());
     }
   }
 
@@ -96,7 +98,7 @@ class Smoother {
   }
 
  private:
-  BlockMatrix<size, size> matrix_;
+  BlockMatrix<size, size, Number> matrix_;
   std::vector<std::size_t> diagonal_;
   std::vector<BlockVector<size>> neglected_;
   std::vector<Block<size>> inverse_;  ///< of the diagonal and what is neglected
@@ -105,9 +107,9 @@ class Smoother {
   void invert_diagonal(int row) {
     neglected_[row].setZero();
     for (auto b = diagonal_[row] + 1; b < matrix_.end(row); ++b) {
-      if (matrix_.column(b) >= n_rows()) neglected_[row] += 0.5f * matrix_.block(b).cwiseAbs().rowwise().sum();
+      if (matrix_.column(b) >= n_rows()) neglected_[row] += 0.5f * matrix_.block(row, b).cwiseAbs().rowwise().sum();
     }
-    Block<size> block = matrix_.block(diagonal_[row]);
+    Block<size> block = matrix_.block(row, diagonal_[row]);
     block.diagonal() += neglected_[row];
     inverse_[row] = inverse<size>(block, smallest_);
   }
@@ -137,7 +139,8 @@ class Transfer {
 };
 
 /// A level and all below it.
-template <int size, int coarse>
+/// @tparam Number of its matrix; of those below it is float
+template <int size, int coarse, class Number = float>
 class Level {
  public:
   explicit Level(const CycleLevel* levels, std::size_t n_levels)
@@ -173,7 +176,7 @@ class Level {
   }
 
  private:
-  Smoother<size> smoother_;
+  Smoother<size, Number> smoother_;
   std::unique_ptr<Transfer<coarse, size>> restriction_;
   std::unique_ptr<Transfer<size, coarse>> prolongation_;
   std::unique_ptr<Level<coarse, coarse>> below_;
@@ -230,7 +233,7 @@ class WCycle : public SinglePrecisionCycle {
 
  private:
   Teuchos::RCP<const Matrix> matrix_;
-  mutable Level<dim, dim*(dim + 1) / 2> finest_;
+  mutable Level<dim, dim*(dim + 1) / 2, Eigen::half> finest_;
 };
 
 }  // namespace

@@ -39,7 +39,8 @@ class CoupledSystem
   std::vector<double> u;
 
   static operators::SystemOptions options() {
-    return {std::get<0>(GetParam()), operators::PreconditionerMatrix::short_range, 1.2, std::get<3>(GetParam())};
+    return {
+        std::get<0>(GetParam()), operators::PreconditionerMatrix::short_range, 1.2, std::get<3>(GetParam()), {2., 1.}};
   }
 
   discretization::Eigenstrain<2> eigenstrain() const {
@@ -76,7 +77,79 @@ class CoupledSystem
     system.residual(r);
     return r;
   }
+
+  Vector product(const Vector& x) const {
+    Vector result(system.unknowns());
+    system.tangent()->apply(x, result);
+    return result;
+  }
+
+  /// Of forces on some degrees of freedom, and none on others, from these.
+  static double distance(const operators::Window::Forces& forces, const Vector& from) {
+    Vector difference(from, Teuchos::Copy);
+    for (std::size_t i = 0; i < forces.dofs.size(); ++i) {
+      difference.sumIntoLocalValue(forces.dofs[i], -forces.values[i]);
+    }
+    return difference.norm2();
+  }
 };
+
+/// Of conjugate gradients' matrix, whose constraints are on the diagonal.
+TEST_P(CoupledSystem, WindowIsThePartOfTheTangentThatItsNodesHave) {
+  EXPECT_EQ(system.window(), nullptr);  // nothing has happened yet
+  system.prepare_tangent(base::field(u));
+  system.expect_breaks({4.5, 3.5});
+  const auto window = system.window();
+  ASSERT_NE(window, nullptr);
+  EXPECT_LT(window->unknowns()->getGlobalNumElements(), system.unknowns()->getGlobalNumElements());
+  Vector here(window->unknowns()), forces(window->unknowns()), everywhere(system.unknowns());
+  here.randomize();
+  const auto& nodes = window->nodes();
+  const auto values = here.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t i = 0; i < 2 * nodes.size(); ++i) {
+    everywhere.replaceLocalValue(nodes[i / 2] * 2 + static_cast<int>(i % 2), values(i, 0));
+  }
+
+  window->tangent()->apply(here, forces);
+
+  const Vector all = product(everywhere);
+  double error = 0.;
+  const auto of_all = all.getLocalViewHost(Tpetra::Access::ReadOnly),
+             of_window = forces.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t i = 0; i < 2 * nodes.size(); ++i) {
+    error = std::max(error, std::abs(of_all(nodes[i / 2] * 2 + i % 2, 0) - of_window(i, 0)));
+  }
+  EXPECT_GT(all.norm2(), 0.);
+  EXPECT_LT(base::max(*body.comm, error), 1e-6 * all.norm2());  // bonds in single precision
+  EXPECT_LT(distance(window->product(everywhere), all), 1e-6 * all.norm2());
+}
+
+TEST_P(CoupledSystem, WindowKnowsWhatChangesTheTangent) {
+  for (int x = 0; x <= 9; ++x) {
+    for (int y = 0; y <= 7; ++y) system.expect_breaks({x, y});
+  }
+  system.prepare_tangent(base::field(u));
+  const auto window = system.window();
+  ASSERT_NE(window, nullptr);
+  const auto field = Teuchos::rcp(new Vector(system.unknowns()));
+  field->randomize();
+  for (const int dof : system.space().prescribed()) {
+    if (static_cast<std::size_t>(dof) < system.space().n_owned()) field->replaceLocalValue(dof, 0.);
+  }
+  window->changes({});
+  window->note_field(0, *field);
+  const Vector before = product(*field);
+
+  system.take(body.soften_each(2, 0.1));
+  system.take({body.break_each(3)});
+  system.prepare_tangent(base::field(u));
+
+  Vector change = product(*field);
+  change.update(-1., before, 1.);
+  EXPECT_GT(change.norm2(), 0.);
+  EXPECT_LT(distance(window->changes({field}).front(), change), 1e-6 * before.norm2());
+  EXPECT_LT(distance(window->changes({field}).front(), Vector(system.unknowns())), 1e-12 * before.norm2());
+}
 
 TEST_P(CoupledSystem, TangentIsTheDerivativeOfTheResidual) {
   Vector change(system.unknowns()), product(system.unknowns());

@@ -224,6 +224,29 @@ def print_tolerance(folder, scale):
                 ["case", "Damage Tolerance", "last increment", "broken bonds", "as with 1e-6", "CG iterations"], rows)
 
 
+def print_windows(folder, scale):
+    """What windows save where a body is large beside them."""
+    case = os.path.join(ROOT, "inputs", "single_edge_block", "single_edge_block_fine.xml")
+    solves = max(1, round(200 * scale))
+    choices = ("Off", "On")
+    runs = [measured(case, os.path.join(folder, choice), 2, ends=(STOPPED_AT_A_LIMIT,),
+                     settings=[f"Loading/Maximum Damage Iterations={solves}", f"Solver/Windows={choice}"])
+            for choice in choices]
+    whole = runs[0]
+    rows = []
+    for choice, one in zip(choices, runs):
+        last = one.history[-1]
+        rows.append([choice, last["unknowns"], last["increment"], last["broken_bonds"],
+                     str(sum(int(row["cg_iterations"]) for row in one.history)),
+                     *(text for phase in ("CG", "preconditioner")
+                       for text in (f"{one.phases[phase]:.1f}", ratio(one.phases[phase], whole.phases[phase]))),
+                     f"{one.wall:.1f}", ratio(one.wall, whole.wall)])
+    print_table(f"Fine block, up to the first increment with {solves} damage iterations, 2 ranks. Iterations are those of the whole "
+                "body, in the increments that were done. Targets: 0.35 of CG's seconds, and of the whole run.",
+                ["Windows", "unknowns", "increments done", "broken bonds", "iterations", "CG [s]", "/ Off", "preconditioner [s]",
+                 "/ Off", "wall [s]", "/ Off"], rows)
+
+
 TABLES = {"iterations": print_iterations, "zone": print_zone, "ranks": print_ranks, "notch": print_notch,
           "examples": print_examples, "tolerance": print_tolerance,
-          "three_dimensions": print_three_dimensions}
+          "three_dimensions": print_three_dimensions, "windows": print_windows}

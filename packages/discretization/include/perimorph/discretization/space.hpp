@@ -48,6 +48,10 @@ class Space {
   /// @param x on owned degrees of freedom, [length]
   base::ConstField expand_change(const Vector& x) const;
 
+  /// The same from values of unknowns that have been copied to all nodes already, images not, in place. Collective
+  /// where there are groups.
+  void complete_change(base::Field change) const;
+
   /// How fast prescribed displacements grow with the load factor in a step up to it, on average, on all local degrees
   /// of freedom; zero where nothing is prescribed, [length]. Local.
   std::vector<double> prescribed_rates(double load_factor, double step) const;

@@ -56,6 +56,9 @@ class Topology {
   /// @throws UserError the first time, if a pre-crack cuts through elements outside the peridynamic zone.
   Change update(bool has_grown);
 
+  /// The local node before the last change of the numbering that each local node has parted from, (n_nodes). Local.
+  std::vector<int> old_nodes() const;
+
   /// A displacement on the numbering before the last change of it, on the present one: nodes start where the node is
   /// that they have parted from; from none at all it is zero. Local.
   /// @param displacement on all local degrees of freedom of old_dofs(), or empty, [length]

@@ -129,6 +129,7 @@ class Body {
   void rebuild(bool has_grown);
   void note_starts();
   void move_to_new_numbering();
+  std::vector<int> owned_old_nodes() const;
   void assemble();
   void publish(const bonds::BondChange& change);
   void balance(Accuracy accuracy);

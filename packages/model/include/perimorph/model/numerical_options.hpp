@@ -22,6 +22,7 @@ struct NumericalOptions {
   operators::OperatorForm operator_form = operators::OperatorForm::matrix_free;
   operators::PreconditionerMatrix preconditioner_matrix = operators::PreconditionerMatrix::short_range;
   double short_range_cut_off = 0.;  ///< of the bonds in the short-range matrix, [length]
+  operators::WindowOptions window;  ///< around bonds that break
   solvers::SolverParameters solver;
 };
 

@@ -20,7 +20,8 @@ template <int dim>
 class BondForces : public ElasticTerm<dim> {
  public:
   /// Of the intact bonds. Collective with dilatation. The model is read again later and must outlive this.
-  explicit BondForces(const CoupledModel<dim>& model);
+  /// @param part elements at either end
+  explicit BondForces(const CoupledModel<dim>& model, MeshPart part = {});
 
   /// p of the displacement that the last product or force was of, at all points, (n_points), [-]; empty without
   /// dilatation. Local.
@@ -29,6 +30,9 @@ class BondForces : public ElasticTerm<dim> {
   void add_tangent_product(base::ConstField x, base::Field force) const override;
   void add_confinement(base::ConstField u, base::Field at_points) const override;
   void take(const bonds::BondChange& change) override;
+  Teuchos::RCP<ForceTerm<dim>> within(const MeshPart& part) const override {
+    return Teuchos::rcp(new BondForces(model_, part));
+  }
   std::size_t bytes() const override;
 
   // In a matrix, with those bonds that it selects, and without dilatation, which would couple across two horizons.
@@ -42,6 +46,7 @@ class BondForces : public ElasticTerm<dim> {
     std::size_t shapes;  ///< position in shapes_ of the shape functions at its points, (n_corners, 4)
   };
   using ElasticTerm<dim>::model_;
+  MeshPart part_;
   std::map<std::pair<const elements::ReferenceElement<dim>*, int>, std::size_t> shape_tables_;
   std::vector<double> shapes_;
   std::vector<Packet> packets_;
@@ -70,10 +75,14 @@ class BondForces : public ElasticTerm<dim> {
     unsigned bit;                 ///< of the mask
   };
 
-  void make_packets();
-  void make_blocks();
+  bool holds(const bonds::ElementPair& pair) const {
+    return part_.holds_element(pair.first) || part_.holds_element(pair.second);
+  }
+  std::vector<int> pairs() const;
+  void make_packets(const std::vector<int>& pairs);
+  void make_blocks(const std::vector<int>& pairs);
   std::size_t shapes_of(const elements::ReferenceElement<dim>& reference, int first_point);
-  void make_dilatation();
+  void make_dilatation(const std::vector<int>& pairs);
   std::size_t lane_of(int element, int q) const;
   Place place_of(const bonds::Bond<dim>& bond) const;
   void add_force_at(base::ConstField u, const std::vector<double>& eigenstrain, base::Field force) const override;

@@ -30,6 +30,7 @@ class ContactForces : public ForceTerm<dim> {
   void prepare_tangent(base::ConstField u) override;
   void add_tangent_product(base::ConstField x, base::Field force) const override;
   void take(const bonds::BondChange& change) override;
+  Teuchos::RCP<ForceTerm<dim>> within(const MeshPart& part) const override;
   void add_load_derivative(base::Field force) const override;
   void add_confinement(base::ConstField u, base::Field at_points) const override;
   double energy(base::ConstField u) const override;
@@ -38,6 +39,9 @@ class ContactForces : public ForceTerm<dim> {
   void couple(const StiffnessMatrix<dim>& matrix, Couplings<dim>& couplings) const override;
   void add_to(StiffnessMatrix<dim>& matrix) const override;
   void update_tangent(StiffnessMatrix<dim>& matrix, std::vector<int>& changed) const override;
+
+  /// By the last prepare_tangent(). Local.
+  std::vector<StiffenedBond<dim>> stiffened() const;
 
   /// Those that are closed at a displacement. Local.
   std::vector<ContactSpring<dim>> closed(base::ConstField u) const;
@@ -65,6 +69,7 @@ class ContactForces : public ForceTerm<dim> {
     Point sliding = Point::Zero();                           ///< eta_t, [length]
     bool is_closed = false, slides = false;
   };
+  class Within;
   /// How much stiffer the tangent has become in a contact.
   struct Stiffening {
     std::size_t contact;
@@ -84,6 +89,7 @@ class ContactForces : public ForceTerm<dim> {
   Point relative_displacement(const Contact& contact, base::ConstField u) const;
   Response response(const Contact& contact, const Point& eta) const;
   Block tangent(const Contact& contact, const Response& response) const;
+  void add_tangent_product(const Contact& contact, base::ConstField x, base::Field force) const;
   void hold(const Contact& contact, const Point& on_second, base::Field force) const;
   void add_to(StiffnessMatrix<dim>& matrix, const std::vector<Stiffening>& springs, std::vector<int>& changed) const;
 };

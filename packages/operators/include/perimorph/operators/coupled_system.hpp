@@ -4,6 +4,7 @@
 
 #include "perimorph/base/profile.hpp"
 #include "perimorph/discretization/topology.hpp"
+#include "perimorph/operators/body_window.hpp"
 #include "perimorph/operators/bond_forces.hpp"
 #include "perimorph/operators/contact_forces.hpp"
 #include "perimorph/operators/load_forces.hpp"
@@ -26,6 +27,7 @@ struct SystemOptions {
   PreconditionerMatrix preconditioner_matrix = PreconditionerMatrix::coupled;
   double short_range_cut_off = 0.;  ///< [length]
   double friction = 0.;             ///< coefficient, of crack faces in contact [-]
+  WindowOptions window = {};
 };
 
 /// What decides which stress a strain makes.
@@ -86,6 +88,10 @@ class CoupledSystem : public NonlinearSystem {
   void expand_response(const Vector& x, base::Field response) const override;
   void scale_anchors(double factor) override { anchors_->scale(factor); }
   const Teuchos::RCP<const Tpetra::Map<>>& unknowns() const override { return space_->dofs().owned_dofs(); }
+  std::shared_ptr<Window> window() override;
+  /// WindowOfBody's.
+  void expect_breaks(const base::Point<dim>& x) { window_.expect_breaks(x); }
+  void forget_window() { window_.clear(); }
 
   // All local.
   CoupledModel<dim> model() const;
@@ -140,6 +146,8 @@ class CoupledSystem : public NonlinearSystem {
   // As a matrix, and the short-range matrix; null if neither operator nor preconditioner needs them.
   std::unique_ptr<StiffnessMatrix<dim>> matrix_, short_range_;
   Teuchos::RCP<const PointBasis<dim>> basis_;  ///< of the short-range matrix
+  std::vector<double> constraints_;            ///< Supports::constraints
+  WindowOfBody<dim> window_;
 
   PointFields<dim> at_points_;
   std::vector<double> internal_, loads_;

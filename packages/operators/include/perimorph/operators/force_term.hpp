@@ -5,6 +5,7 @@
 
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/field.hpp"
+#include "perimorph/bonds/bond.hpp"
 #include "perimorph/bonds/bond_change.hpp"
 
 namespace perimorph::operators {
@@ -13,6 +14,21 @@ template <int dim>
 class StiffnessMatrix;
 template <int dim>
 struct Couplings;
+
+/// A part of the mesh: some of its local elements and their nodes, or all of them.
+struct MeshPart {
+  std::vector<char> elements, nodes;  ///< local ones: whether they belong to it; empty: all do
+  bool is_whole() const { return elements.empty(); }
+  bool holds_element(int e) const { return is_whole() || elements[e] != 0; }
+  bool holds_node(int node) const { return is_whole() || nodes[node] != 0; }
+};
+
+/// By how much stiffer the tangent has become between the ends of a bond.
+template <int dim>
+struct StiffenedBond {
+  bonds::Bond<dim> bond;
+  Eigen::Matrix<double, dim, dim> by;  ///< [force / length]
+};
 
 /// A term of the balance of forces. It adds the forces that it takes to hold the nodes against it, as the internal
 /// force K u does; what loads the body adds them with the other sign. Fields are on all local degrees of freedom, and
@@ -37,6 +53,10 @@ class ForceTerm {
 
   /// force += dF / d load factor.
   virtual void add_load_derivative(base::Field /*force*/) const {}
+
+  /// The tangent of this with what touches a part of the mesh only, null without a tangent. It is told of bonds that
+  /// break as this is, and this must outlive it. Collective.
+  virtual Teuchos::RCP<ForceTerm> within(const MeshPart& /*part*/) const { return Teuchos::null; }
 
   /// Adds the couplings of unknowns that the tangent has in a matrix, beside those within one element.
   virtual void couple(const StiffnessMatrix<dim>& /*matrix*/, Couplings<dim>& /*couplings*/) const {}

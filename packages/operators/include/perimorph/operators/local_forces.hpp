@@ -13,10 +13,14 @@ template <int dim>
 class LocalForces : public ElasticTerm<dim> {
  public:
   /// Of the active elements with E != 0. The model is read again by add_to() and must outlive this. Local.
-  explicit LocalForces(const CoupledModel<dim>& model);
+  /// @param part elements that it is of
+  explicit LocalForces(const CoupledModel<dim>& model, const MeshPart& part = {});
 
   void add_tangent_product(base::ConstField x, base::Field force) const override;
   void add_confinement(base::ConstField u, base::Field at_points) const override;
+  Teuchos::RCP<ForceTerm<dim>> within(const MeshPart& part) const override {
+    return Teuchos::rcp(new LocalForces(model_, part));
+  }
   void add_to(StiffnessMatrix<dim>& matrix) const override;
   std::size_t bytes() const override;
 

@@ -4,11 +4,49 @@
 #include <Tpetra_Map_fwd.hpp>
 #include <Tpetra_Operator_fwd.hpp>
 #include <Tpetra_Vector_fwd.hpp>
+#include <memory>
 #include <vector>
 
 #include "perimorph/base/field.hpp"
 
 namespace perimorph::operators {
+
+/// Some of the unknowns, those of nodes around bonds that have broken, while all others are held fast. All functions
+/// are collective.
+class Window {
+ public:
+  using Vector = Tpetra::Vector<double>;
+  using Operator = Tpetra::Operator<double>;
+
+  virtual ~Window() = default;
+
+  /// Owned nodes, ascending. Local.
+  virtual const std::vector<int>& nodes() const = 0;
+  /// Theirs, numbered on their own, in this order; the nodes of a rank are contiguous. Local.
+  virtual const Teuchos::RCP<const Tpetra::Map<>>& unknowns() const = 0;
+
+  /// The tangent on these unknowns, as it is prepared in the system.
+  virtual Teuchos::RCP<Operator> tangent() const = 0;
+  /// What the preconditioner's matrix of the system has as unknowns, in terms of these; null: the same.
+  virtual Teuchos::RCP<const Operator> basis() const = 0;
+
+  /// Forces on some owned degrees of freedom; there are none on others.
+  struct Forces {
+    std::vector<int> dofs;  ///< ascending
+    std::vector<double> values;
+  };
+  /// K x of what is zero but on these unknowns. @param x on all unknowns of the system
+  virtual Forces product(const Vector& x) const = 0;
+
+  /// (K - K0) x of several fields, K0 being K when this was called last.
+  /// @param fields (n), each on all unknowns of the system and as note_field() knows it
+  /// @return (n)
+  virtual std::vector<Forces> changes(const std::vector<Teuchos::RCP<const Vector>>& fields) = 0;
+  /// Whether changes() knows of those before this window was there, too. Local.
+  virtual bool knows_changes() const = 0;
+  /// changes() will be asked of this field in this place among its fields.
+  virtual void note_field(std::size_t place, const Vector& field) = 0;
+};
 
 /// The balance of forces as a solver sees it: R(u; load factor) = loads - internal forces = 0 on the unknowns. It keeps
 /// the forces of the displacement that it was evaluated at last. Fields u are displacements on all local degrees of
@@ -55,6 +93,10 @@ class NonlinearSystem {
   virtual void scale_anchors(double factor) = 0;
 
   virtual const Teuchos::RCP<const Tpetra::Map<>>& unknowns() const = 0;
+
+  /// A window around the bonds that have changed since the last call, the one of that call if it still serves; null
+  /// where there is none, or it would be most of the body.
+  virtual std::shared_ptr<Window> window() { return nullptr; }
 };
 
 }  // namespace perimorph::operators

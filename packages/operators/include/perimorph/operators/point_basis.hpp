@@ -3,6 +3,7 @@
 #include <Tpetra_MultiVector_fwd.hpp>
 #include <Tpetra_Operator.hpp>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "perimorph/discretization/space.hpp"
@@ -39,6 +40,11 @@ class PointBasis : public Tpetra::Operator<double> {
   /// @param coordinates of the owned nodes, [length]
   void move_to_points(std::vector<base::Point<dim>>& coordinates) const;
 
+  /// On some of the nodes, none or all of each element's. Local.
+  /// @param nodes owned, ascending
+  /// @param unknowns theirs, in their order
+  PointBasis within(const std::vector<int>& nodes, const Teuchos::RCP<const Map>& unknowns) const;
+
   Teuchos::RCP<const Map> getDomainMap() const override { return unknowns_; }
   Teuchos::RCP<const Map> getRangeMap() const override { return unknowns_; }
   bool hasTransposeApply() const override { return true; }
@@ -55,14 +61,14 @@ class PointBasis : public Tpetra::Operator<double> {
   struct Element {
     std::size_t first;  ///< in nodes_
     int n_nodes;
-    const CornerMatrix* added;  ///< T - 1 for one component
+    std::shared_ptr<const CornerMatrix> added;  ///< T - 1 for one component
   };
   std::vector<Element> elements_;         ///< those whose nodes are owned
   std::vector<int> nodes_;                ///< theirs
   std::vector<base::Point<dim>> points_;  ///< positions of the points that stand for these nodes, [length]
-  std::map<const elements::ReferenceElement<dim>*, CornerMatrix> tables_;
+  std::map<const elements::ReferenceElement<dim>*, std::shared_ptr<const CornerMatrix>> tables_;
 
-  const CornerMatrix& table_of(const elements::ReferenceElement<dim>& reference);
+  std::shared_ptr<const CornerMatrix> table_of(const elements::ReferenceElement<dim>& reference);
 };
 
 /// The unknowns of a topology from those of the one before, by owned node: those that nodes have parted from, and for

@@ -34,6 +34,7 @@ class Anchors : public ForceTerm<dim> {
   void add_force(base::ConstField /*u*/, base::Field /*force*/) const override {}
   void add_tangent_product(base::ConstField x, base::Field force) const override;
   void add_to(StiffnessMatrix<dim>& matrix) const override;
+  Teuchos::RCP<ForceTerm<dim>> within(const MeshPart& part) const override;
   double energy(base::ConstField /*u*/) const override { return 0.; }
   std::size_t bytes() const override { return springs_.size() * sizeof(Spring); }
 

@@ -4,6 +4,7 @@
 
 #include "perimorph/operators/nonlinear_system.hpp"
 #include "perimorph/solvers/linear_solver.hpp"
+#include "perimorph/solvers/window_solver.hpp"
 
 namespace perimorph::solvers {
 
@@ -14,6 +15,8 @@ struct BalanceTarget {
   double& force_scale;
   /// Whether pieces may float: all bonds hold otherwise, and the anchors of the tangent are hardly needed.
   bool may_float;
+  /// Whether a window may serve: the residual is then as small in it, and up to four times as large elsewhere.
+  bool by_window = false;
 };
 
 /// Finds the displacement at which forces balance, by Newton's method with conjugate gradients for each correction. A
@@ -22,11 +25,22 @@ class Equilibrium {
  public:
   /// Collective. @param profile must outlive this
   Equilibrium(const base::Comm& comm, SolverParameters parameters, base::Profile& profile)
-      : solver_(comm, std::move(parameters), profile) {}
+      : solver_(comm, parameters, profile), windows_(comm, std::move(parameters), profile) {}
+
+  /// LinearSolver::note_change() and forget(), for windows too. Local.
+  void note_change(const std::vector<int>& nodes) {
+    solver_.note_change(nodes);
+    windows_.note_change(nodes);
+  }
+  void forget() {
+    solver_.forget();
+    windows_.forget();
+  }
 
   /// The solver of the corrections; new operators and changed values are handed to it.
   LinearSolver& linear_solver() { return solver_; }
   const LinearSolver& linear_solver() const { return solver_; }
+  WindowSolver& windows() { return windows_; }
 
   struct Outcome {
     bool converged;
@@ -46,6 +60,7 @@ class Equilibrium {
 
  private:
   LinearSolver solver_;
+  WindowSolver windows_;
 };
 
 }  // namespace perimorph::solvers

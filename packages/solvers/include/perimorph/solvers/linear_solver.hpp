@@ -17,6 +17,7 @@ namespace perimorph::solvers {
 struct SolverParameters {
   int max_iterations = 500;
   double renewal_cost = 12.;            ///< iterations more than with a new preconditioner, after which it is renewed
+  bool has_resorts = true;              ///< or what fails is not tried again in other ways
   Teuchos::ParameterList belos, muelu;  ///< overrides
 };
 
