@@ -18,7 +18,7 @@ import unittest
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import ENDLESS, EVERY, INCREMENTS, N, GrowingCrack, changed, plate_mesh
+from fixture import ENDLESS, EVERY, INCREMENTS, N, GrowingCrack, changed, plate_mesh, settings
 
 
 class Continued(GrowingCrack):
@@ -29,23 +29,16 @@ class Continued(GrowingCrack):
                 with self.subTest(ranks=ranks, stop=stop):
                     self.assert_continues(whole, stop, *EVERY, ranks=ranks)
 
-    def test_with_dilatation_it_ends_with_the_same_bits(self):
-        volume = [*EVERY, "--set", "Material/Poisson's Ratio=0.2"]
-        for ranks in [1, 2]:
-            with self.subTest(ranks=ranks):
-                self.run_until(INCREMENTS, *volume, ranks=ranks)
-                whole = self.outcome()
-                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 0)
-                self.assert_continues(whole, 14, *volume, ranks=ranks)
-
-    def test_with_windows_it_ends_with_the_same_bits(self):
-        windows = [*EVERY, "--set", "Solver/Largest Window=0.9", "--set", "Solver/Window Radius=1"]
-        for ranks in [1, 2]:
-            with self.subTest(ranks=ranks):
-                self.run_until(INCREMENTS, *windows, ranks=ranks)
-                whole = self.outcome()
-                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 0)
-                self.assert_continues(whole, 14, *windows, ranks=ranks)
+    def test_with_dilatation_and_windows_it_ends_with_the_same_bits(self):
+        volume = settings("Material/Poisson's Ratio=0.2")
+        windows = settings("Solver/Largest Window=0.9", "Solver/Window Radius=1")
+        for options in [volume, windows, [*volume, *windows]]:
+            for ranks in [1, 2]:
+                with self.subTest(options=options, ranks=ranks):
+                    self.run_until(INCREMENTS, *EVERY, *options, ranks=ranks)
+                    whole = self.outcome()
+                    self.assertGreater(int(whole[0][-1]["broken_bonds"]), 0)
+                    self.assert_continues(whole, 14, *EVERY, *options, ranks=ranks)
 
     def test_on_other_ranks_the_same_bonds_break(self):
         rows, times, steps = self.uninterrupted()

@@ -105,10 +105,9 @@ Equilibrium::Outcome Equilibrium::find(operators::NonlinearSystem& system, base:
     last_residual = norms.residual;
 
     note_change(system.prepare_tangent(u));
-    ++outcome.linear_solves;
-    const bool may_be_by_window = target.by_window && outcome.linear_solves == 1;
-    if (may_be_by_window) window = system.window();
-    if (may_be_by_window && window != nullptr && windows_.solve(window, residual, correction, in_window * largest)) {
+    const bool is_first = ++outcome.linear_solves == 1;
+    if (is_first && target.by_window) window = system.window();
+    if (is_first && window != nullptr && windows_.solve(window, residual, correction, in_window * largest)) {
       leeway = far_off;
     } else {
       const auto linear = solver_.solve(residual, correction, 0.5 * leeway * largest);

@@ -100,7 +100,6 @@ void WindowSolver::set_operator(const Teuchos::RCP<Operator>& linear_operator,
 }
 
 void WindowSolver::note_change(const std::vector<int>& nodes) {
-  has_changed_ = true;
   if (window_ == nullptr) return;
   std::vector<int> changed;
   for (const int node : nodes) {
@@ -133,14 +132,14 @@ int WindowSolver::leave_window() {
 void WindowSolver::place(const std::shared_ptr<operators::Window>& window) {
   const int last = leave_window();
   window_ = window;
-  if (products_are_old_ || (has_changed_ && !window->knows_changes())) {
+  if (products_are_old_ || !window->knows_changes()) {
     fields_->multiply();
     window->changes({});
   } else {
-    fields_->take(window->changes(fields_->all()));
+    follow_changes();
     if (last >= 0) fields_->multiply(last);
   }
-  products_are_old_ = has_changed_ = false;
+  products_are_old_ = false;
   rows_.clear();
   for (const int node : window->nodes()) {
     for (int c = 0; c < dim_; ++c) rows_.push_back(node * dim_ + c);
@@ -195,10 +194,8 @@ void WindowSolver::make_harmonic(int field) {
   fields_->scale(field);
 }
 
-void WindowSolver::follow_changes() {
-  if (!std::exchange(has_changed_, false)) return;
-  fields_->take(window_->changes(fields_->all()));
-}
+/// What has changed the operator, in the products.
+void WindowSolver::follow_changes() const { fields_->take(window_->changes(fields_->all())); }
 
 bool WindowSolver::solve(const std::shared_ptr<operators::Window>& window, const Vector& b, Vector& x, double target) {
   PERIMORPH_ASSERT(!operator_.is_null() && window != nullptr, "an operator or a window is missing");
@@ -241,10 +238,10 @@ void WindowSolver::learn(const Vector& correction) {
     products_are_old_ = true;
     return;
   }
-  follow_changes();
+  const bool is_harmonic = !shares_.empty();
+  if (!is_harmonic) follow_changes();  // as solve() has done otherwise
   Vector field(correction, Teuchos::Copy), product(operator_->getDomainMap());
   operator_->apply(correction, product);
-  const bool is_harmonic = !shares_.empty();
   if (is_harmonic) {
     const Eigen::Map<const VectorXd> q(shares_.data(), static_cast<Index>(shares_.size()));
     numbers_of(field) += fields_->u() * q;

@@ -229,9 +229,8 @@ def print_windows(folder, scale):
     case = os.path.join(ROOT, "inputs", "single_edge_block", "single_edge_block_fine.xml")
     solves = max(1, round(200 * scale))
     choices = ("Off", "On")
-    runs = [measured(case, os.path.join(folder, choice), 2, ends=(STOPPED_AT_A_LIMIT,),
-                     settings=[f"Loading/Maximum Damage Iterations={solves}", f"Solver/Windows={choice}"])
-            for choice in choices]
+    runs = fastest(lambda choice: measured(case, os.path.join(folder, choice), 2, ends=(STOPPED_AT_A_LIMIT,), settings=[
+        f"Loading/Maximum Damage Iterations={solves}", f"Solver/Windows={choice}"]), choices)
     whole = runs[0]
     rows = []
     for choice, one in zip(choices, runs):
@@ -241,8 +240,8 @@ def print_windows(folder, scale):
                      *(text for phase in ("CG", "preconditioner")
                        for text in (f"{one.phases[phase]:.1f}", ratio(one.phases[phase], whole.phases[phase]))),
                      f"{one.wall:.1f}", ratio(one.wall, whole.wall)])
-    print_table(f"Fine block, up to the first increment with {solves} damage iterations, 2 ranks. Iterations are those of the whole "
-                "body, in the increments that were done. Targets: 0.35 of CG's seconds, and of the whole run.",
+    print_table(f"Fine block, up to the first increment with {solves} damage iterations, 2 ranks; the fastest of three runs. "
+                "Iterations are those of the whole body, in the increments that were done. Targets: 0.35 of CG's seconds, and of the whole run.",
                 ["Windows", "unknowns", "increments done", "broken bonds", "iterations", "CG [s]", "/ Off", "preconditioner [s]",
                  "/ Off", "wall [s]", "/ Off"], rows)
 

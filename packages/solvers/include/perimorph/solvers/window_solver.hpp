@@ -28,7 +28,7 @@ class WindowSolver {
   void set_operator(const Teuchos::RCP<Operator>& linear_operator, const Teuchos::RCP<Matrix>& preconditioner_matrix,
                     const NearNullSpace& near_null_space, const std::vector<int>& old_nodes);
 
-  /// The operator has changed, and its preconditioner's matrix in the rows of these owned nodes. Local.
+  /// The preconditioner's matrix has new values in the rows of these owned nodes. Local.
   void note_change(const std::vector<int>& nodes);
 
   /// Window and far fields are gone: nothing that comes depends on solves before. Local.
@@ -57,7 +57,6 @@ class WindowSolver {
 
   std::unique_ptr<FarFields> fields_;  ///< null: none
   bool products_are_old_ = false;      ///< of the fields: those of another operator, or not known
-  bool has_changed_ = false;           ///< the operator, since the products followed
   std::vector<double> shares_;         ///< of the fields in the last solution; none if it has been learned from
 
   std::shared_ptr<operators::Window> window_;
@@ -70,7 +69,7 @@ class WindowSolver {
   void place(const std::shared_ptr<operators::Window>& window);
   void make_solver();
   int leave_window();
-  void follow_changes();
+  void follow_changes() const;
   void make_harmonic(int field);
   std::optional<std::vector<double>> solve_in_window(const std::vector<double>& b, double target);
 };
