@@ -47,6 +47,24 @@ TEST_F(CaseFile, MistakesOfAMeasureAreNamed) {
 
 // --- thickness ---
 
+TEST_F(CaseFile, ARefinementFitsItsLevelsAndItsMesh) {
+  const auto refinement = read(valid, {"Mesh/Refinement/Levels=2", "Mesh/Refinement/Margin=4"}).numerical.refinement;
+  EXPECT_EQ(refinement.levels, 2);
+  EXPECT_EQ(refinement.margin, 4.);
+  EXPECT_THAT(error(valid, {"Mesh/Refinement/Levels=9"}),
+              HasSubstr("/Mesh/Refinement/Levels: found 9; allowed is a whole number up to 8"));
+  EXPECT_THAT(error(valid, {"Mesh/Refinement/Levels=-1"}),
+              HasSubstr("/Mesh/Refinement/Levels: found \"-1\"; allowed is"));
+  EXPECT_THAT(
+      error(valid, {"Mesh/Refinement/Grading=4"}),
+      HasSubstr("/Mesh/Refinement/Grading: found with \"Levels\" = 0, where it has no effect; allowed is it with "
+                "1 or more"));
+  EXPECT_THAT(error(valid, {"Mesh/Refinement/Levels=1", "Mesh/Refinement/Margin=1"}),
+              HasSubstr("/Mesh/Refinement/Margin: found \"1\"; allowed is a number >= 2"));
+  EXPECT_THAT(error(valid, {"Mesh/Perturbation=0.5"}),
+              HasSubstr("/Mesh/Perturbation: found 0.5; allowed is 0 up to 0.4"));
+}
+
 TEST_F(CaseFile, AThicknessIsForTwoDimensions) {
   EXPECT_EQ(perimorph::cases::make_problem<2>(read(valid)).thickness, 1.);
   EXPECT_EQ(perimorph::cases::make_problem<2>(read(valid, {"Mesh/Thickness=20"})).thickness, 20.);

@@ -95,6 +95,7 @@ struct WholeRun {
   output::StopRequests requests;
   std::optional<io::Checkpoint> start;
   mesh::Mesh<2> mesh;
+  model::Refinement<2> refinement;
   output::Rebalancing<2> rebalancing;
   fracture::Body<2> body;
   output::Results<2> results;
@@ -104,6 +105,7 @@ struct WholeRun {
         checkpoints(comm, input, folder, base::silent_log()),
         start(checkpoints.load()),
         mesh(read()),
+        refinement(comm, {}, problem, input.numerical),
         rebalancing(comm, input.solver.largest_imbalance, std::vector<double>(mesh.n_global_elements, 1.),
                     base::silent_log()),
         body(comm, mesh, problem, input.numerical, profile),
@@ -113,7 +115,7 @@ struct WholeRun {
   }
 
   void advance_to(const cases::Case& input, int increment) {
-    output::RunObserver<2> observer(comm, nullptr, results, checkpoints, rebalancing, requests);
+    output::RunObserver<2> observer(comm, nullptr, results, checkpoints, refinement, rebalancing, requests);
     auto position = checkpoints.position();
     fracture::run_adaptive_loop(body, {increment, input.loading.max_damage_iterations, input.loading.max_zone_growths},
                                 observer, position);

@@ -15,6 +15,7 @@
 #include "perimorph/input/resolved.hpp"
 #include "perimorph/mesh/mesh_report.hpp"
 #include "perimorph/model/calibration.hpp"
+#include "perimorph/model/refinement.hpp"
 #include "perimorph/output/field_series.hpp"
 #include "perimorph/output/partition_costs.hpp"
 #include "perimorph/output/run_observer.hpp"
@@ -82,6 +83,35 @@ void warn_of_names(const mesh::Mesh<dim>& whole, const cases::Case& input, const
   }
 }
 
+/// The mesh of a body, refined where the case asks for it, whole on rank 0. Collective.
+/// @param increments in the last of which automatic seeds are found, on the mesh as it is before that
+template <int dim>
+model::Refinement<dim> refine(const Teuchos::RCP<const base::Comm>& comm, mesh::Mesh<dim> root,
+                              const cases::Case& input, int increments, Problem<dim>& problem, base::Profile& profile,
+                              const base::Log& log) {
+  const bool is_refined = input.numerical.refinement.levels > 0;
+  if (is_refined && !problem.automatic_seeds.empty()) {
+    const auto mesh = model::distribute_mesh(*comm, root, problem);
+    place_automatic_seeds(comm, mesh, input.numerical, increments, problem, profile, log);
+  }
+  try {
+    return {comm, std::move(root), problem, input.numerical};
+  } catch (const base::UserError& error) {
+    throw base::UserError(fmt::format("{}: /Mesh/Refinement/Levels: {}", input.file, error.what()));
+  }
+}
+
+template <int dim>
+void describe(const model::Refinement<dim>& refinement, const base::Log& log) {
+  if (refinement.is_refined()) log->info("refined          {}", refinement.description());
+}
+
+template <int dim>
+void warn_of(const base::Comm& comm, const cases::Case& input, const model::Refinement<dim>& refinement,
+             const base::Log& log) {
+  if (comm.getRank() == 0 && refinement.is_refined()) warn(log, input, refinement.warnings());
+}
+
 /// Places the seeds that are found by the strain in the last of so many increments, and calibrates the critical stretch
 /// to the elements in all seeds; returns what the case would choose better. Collective.
 template <int dim>
@@ -128,19 +158,23 @@ class Run {
     if (start == Start::from_checkpoint) start_ = checkpoints_.load();
   }
 
-  /// To the last increment, with as many partitions of the mesh as it takes. Collective.
+  /// To the last increment, with as many meshes and partitions of them as it takes. Collective.
   void to_the_end() {
-    const auto whole = read();
+    auto refinement =
+        refine(comm_, read(), input_, checkpoints_.planned_increments(), problem_, profile_, console_.log);
+    if (start_) go_to_start(refinement);
     auto costs = checkpoints_.element_costs();
-    if (costs.empty()) costs = output::expected_costs(whole, problem_, input_.numerical.discontinuous);
+    if (costs.empty()) costs = expected_costs(refinement);
     output::Rebalancing<dim> rebalancing(comm_, input_.solver.largest_imbalance, std::move(costs), console_.log);
-    auto mesh = distribute(whole, rebalancing);
+    auto mesh = distribute(refinement.mesh(), rebalancing);
     describe(*comm_, input_, problem_, mesh, console_.log);
+    describe(refinement, console_.log);
+    warn_of(*comm_, input_, refinement, console_.log);
     const auto advice =
         place_and_calibrate(comm_, mesh, input_, checkpoints_.planned_increments(), problem_, profile_, console_.log);
     advise(console_.log, input_, advice, spdlog::level::info);
     auto position = checkpoints_.position();
-    while (!is_done_on(mesh, rebalancing, position)) mesh = distribute(whole, rebalancing);
+    while (!is_done_on(mesh, refinement, rebalancing, position)) mesh = distribute(refinement.mesh(), rebalancing);
   }
 
  private:
@@ -165,27 +199,45 @@ class Run {
     return std::move(checked.whole);
   }
 
+  /// The mesh becomes that of the state from which the next body goes on; none: the first one.
+  void go_to_start(model::Refinement<dim>& refinement) const {
+    using FlagPoints = typename model::Refinement<dim>::FlagPoints;
+    refinement.go_to(start_ ? output::share_flag_points<dim>(*comm_, *start_) : FlagPoints(),
+                     checkpoints_.refinements());
+  }
+
+  std::vector<double> expected_costs(const model::Refinement<dim>& refinement) const {
+    return output::expected_costs(refinement.mesh(), problem_, input_.numerical.discontinuous);
+  }
+
   mesh::Mesh<dim> distribute(const mesh::Mesh<dim>& whole, const output::Rebalancing<dim>& rebalancing) {
     const auto timer = profile_.measure(base::Phase::read);
     return model::distribute_mesh(*comm_, whole, problem_, rebalancing.element_costs());
   }
 
-  /// Goes on with one partition of the mesh, as far as it serves; returns whether the run is done.
+  /// Goes on with one partition of one mesh, as far as it serves; returns whether the run is done.
   /// @throws ComputationError if it was asked to stop, and as run_adaptive_loop does.
-  bool is_done_on(const mesh::Mesh<dim>& mesh, output::Rebalancing<dim>& rebalancing,
-                  fracture::LoopPosition& position) {
+  bool is_done_on(const mesh::Mesh<dim>& mesh, model::Refinement<dim>& refinement,
+                  output::Rebalancing<dim>& rebalancing, fracture::LoopPosition& position) {
     std::optional<fracture::Body<dim>> body;
     start_on(mesh, body);
-    auto results = open_results(mesh);
-    output::RunObserver<dim> observer(comm_, folder_.lock(), *results, checkpoints_, rebalancing, requests_);
+    auto results = open_results(mesh, refinement);
+    output::RunObserver<dim> observer(comm_, folder_.lock(), *results, checkpoints_, refinement, rebalancing,
+                                      requests_);
     try {
       auto end = run_adaptive_loop(*body, limits(), observer, position);
       for (; end == fracture::LoopEnd::cut; end = run_adaptive_loop(*body, limits(), observer, position)) {
         console_.log->info("cut              step {} again, to load {:.6g}", position.increment + 1,
                            position.step.end());
         start_ = checkpoints_.start_of_increment();
+        if (refinement.calls() != checkpoints_.refinements()) {
+          go_to_start(refinement);
+          rebalancing.follow(expected_costs(refinement));
+          return false;
+        }
         start_on(mesh, body);
       }
+      if (end == fracture::LoopEnd::refine) refine_after(*body, refinement, rebalancing);
       if (end == fracture::LoopEnd::rebalance) start_ = output::gather_state(*comm_, *body);
       if (end == fracture::LoopEnd::stopped) stop();
       if (end == fracture::LoopEnd::done) results->summarize(*body);
@@ -211,6 +263,32 @@ class Run {
     start_.reset();
   }
 
+  /// The mesh follows the body, and the state from which the next one goes on is this one's.
+  void refine_after(const fracture::Body<dim>& body, model::Refinement<dim>& refinement,
+                    output::Rebalancing<dim>& rebalancing) {
+    const auto timer = profile_.measure(base::Phase::adapt);
+    const auto state = output::gather_state(*comm_, body);
+    const auto descents = follow(refinement, body.state().flag_points);
+    start_.emplace();
+    base::on_all_ranks(*comm_, [&] {
+      if (comm_->getRank() == 0) start_ = output::refine_state<dim>(state, descents);
+    });
+    std::vector<double> costs;
+    for (const auto& descent : descents) costs.push_back(rebalancing.element_costs()[descent.ancestor]);
+    rebalancing.follow(std::move(costs));
+    describe(refinement, console_.log);
+  }
+
+  /// @throws ComputationError if the zone has come to elements that are not divided
+  std::vector<mesh::Descent> follow(model::Refinement<dim>& refinement,
+                                    const typename model::Refinement<dim>::FlagPoints& flag_points) const {
+    try {
+      return refinement.follow(flag_points);
+    } catch (const base::UserError& error) {
+      throw base::ComputationError(fmt::format("/Mesh/Refinement: {}", error.what()));
+    }
+  }
+
   void write_unfinished(int increment, const fracture::Body<dim>& body, output::Results<dim>& results) const {
     const auto file = results.write_unfinished(increment, body);
     console_.log->info("unfinished       increment {}, as it was before it failed: {}", increment, file);
@@ -225,7 +303,8 @@ class Run {
 
   /// The first time, removes what an earlier run has left: its checkpoints before its results if this run starts over,
   /// so that none counts on results that are gone, and otherwise those after which this run does not go on.
-  std::unique_ptr<output::Results<dim>> open_results(const mesh::Mesh<dim>& mesh) {
+  std::unique_ptr<output::Results<dim>> open_results(const mesh::Mesh<dim>& mesh,
+                                                     const model::Refinement<dim>& refinement) {
     const auto& earlier = checkpoints_.results();
     if (!has_taken_over_ && !earlier) checkpoints_.remove_later();
     if (!has_taken_over_) folder_.take_over(appends_to_log_);
@@ -234,7 +313,7 @@ class Run {
         std::make_unique<output::Exports<dim>>(comm_, mesh, input_, folder_.path(), checkpoints_.increment(), earlier));
     if (!has_taken_over_) checkpoints_.remove_later();
     has_taken_over_ = true;
-    checkpoints_.begin(results->state());
+    checkpoints_.begin(results->state(), refinement.calls());
     return results;
   }
 
@@ -345,11 +424,15 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity, c
   const base::TemporaryFolder folder;
   const auto log = base::make_log(*comm, verbosity == Verbosity::quiet);
   auto problem = cases::make_problem<dim>(input);
-  const auto [whole, warnings] = cases::read_whole_mesh<dim>(*comm, input, folder.path());
+  auto [root, warnings] = cases::read_whole_mesh<dim>(*comm, input, folder.path());
+  log->info("{}", input::listing(input.resolved));
+  const auto refinement = refine(comm, std::move(root), input, input.loading.increments, problem, profile, log);
+  const auto& whole = refinement.mesh();
   const auto costs = output::expected_costs(whole, problem, input.numerical.discontinuous);
   const auto mesh = model::distribute_mesh(*comm, whole, problem, costs);
-  log->info("{}", input::listing(input.resolved));
   describe(*comm, input, problem, mesh, log);
+  describe(refinement, log);
+  warn_of(*comm, input, refinement, log);
   if (mesh_files::is_geometry(input.mesh.file)) {
     log->info("geometry         a program that gmsh runs; commands and writing files are {} (--allow-shell)",
               input.mesh.meshing.side_effects == mesh_files::SideEffects::allowed ? "allowed" : "refused");

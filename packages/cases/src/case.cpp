@@ -26,7 +26,7 @@ void declare_case(const Section& root, Case& input) {
   root.parameter("Dimension", input.dimension, input::either(2, 3),
                  "Dimensions of space. It decides how many numbers a point has, which elements the mesh needs, and "
                  "which elastic models and shapes of seeds and pre-cracks are allowed.");
-  declare(root.section("Mesh", "Where the body comes from."), input.mesh);
+  declare(root.section("Mesh", "Where the body comes from."), input.mesh, input.numerical);
   declare(root.section("Material",
                        "The homogeneous, isotropic, linearly elastic, brittle material of the body; with Materials, of "
                        "all blocks that none of these fills."),

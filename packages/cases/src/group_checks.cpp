@@ -32,6 +32,7 @@ class GroupChecks {
     check_blocks(list_.sublist("Materials"), "/Materials/");
     check_blocks(list_.sublist("Boundary Conditions").sublist("Temperatures"), "/Boundary Conditions/Temperatures/");
     check_measure();
+    check_refinement();
     const ParameterList& output = list_.sublist("Output");
     if (!output.isParameter("Reactions")) return;
     for (const auto& group : output.get<Teuchos::Array<std::string>>("Reactions")) {
@@ -53,6 +54,14 @@ class GroupChecks {
       named.insert(group);
     }
     return named;
+  }
+
+  void check_refinement() {
+    const ParameterList& refinement = list_.sublist("Mesh").sublist("Refinement");
+    if (!refinement.isParameter("Groups")) return;
+    for (const auto& group : refinement.get<Teuchos::Array<std::string>>("Groups")) {
+      check("/Mesh/Refinement/Groups", group, mesh_.node_sets, "nodes");
+    }
   }
 
   void check_measure() {

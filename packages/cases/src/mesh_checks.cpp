@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Teuchos_DefaultSerialComm.hpp>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -206,7 +207,7 @@ class Checks {
       Point<dim> center = Point<dim>::Zero();
       for (int e = 0; e < mesh_.n_elements(); ++e) {
         const Point<dim> x = mesh::centroid(mesh_, e);
-        const double reach = mesh::radius(mesh_, e);
+        const double reach = std::ldexp(mesh::radius(mesh_, e), -input_.numerical.refinement.levels);
         if (reach <= largest || zone.alpha(x, input_.numerical.blending_function) < 1.) continue;
         largest = reach;
         center = x;
@@ -214,9 +215,9 @@ class Checks {
       if (largest <= input_.peridynamics.horizon) continue;
       add("/Peridynamics/Horizon",
           fmt::format("found {:.6g}, but in the seed {} the element at ({:.6g}) reaches {:.6g} from its centre to its "
-                      "corners; allowed is no less than that (three element sizes are usual), or a finer mesh there",
+                      "corners{}; allowed is no less than that (three element sizes are usual), or a finer mesh there",
                       input_.peridynamics.horizon, in_quotes(seed.name), fmt::join(center.begin(), center.end(), ", "),
-                      largest));
+                      largest, input_.numerical.refinement.levels > 0 ? " when it is refined" : ""));
     }
   }
 

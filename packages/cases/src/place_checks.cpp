@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "body_parts.hpp"
@@ -85,7 +86,8 @@ class PlaceChecks {
 
   void check(const PreCrack& crack) {
     const auto facets = facets_of<dim>({crack});
-    const auto place = mesh::place_of<dim>(mesh_, facets);
+    const double size = std::ldexp(1., -input_.numerical.refinement.levels);
+    const auto place = mesh::place_of<dim>(mesh_, facets, size);
     if (place == CrackPlace::inside) return;
     const std::string allowed =
         place == CrackPlace::outside
@@ -93,8 +95,8 @@ class PlaceChecks {
             : "much shorter than the elements there, and parts nothing; allowed are cracks of their size or longer";
     add("/Pre-Cracks/" + crack.name, fmt::format("found a crack {}: it is {}{}", extent<dim>(box_around<dim>(facets)),
                                                  allowed, factor_that_fits([&](double factor) {
-                                                   return mesh::place_of<dim>(mesh_, scaled<dim>(facets, factor)) ==
-                                                          CrackPlace::inside;
+                                                   return mesh::place_of<dim>(mesh_, scaled<dim>(facets, factor),
+                                                                              size) == CrackPlace::inside;
                                                  })));
   }
 

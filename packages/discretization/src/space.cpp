@@ -17,6 +17,7 @@ Space<dim>::Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet, std:
       starts_(std::move(starts)),
       frames_(dofs, dirichlet),
       groups_(dofs, dirichlet.groups(), dirichlet.load_factor()),
+      hanging_(dofs),
       is_constrained_(static_cast<std::size_t>(dofs.n_nodes()) * dim, 0),
       owned_(Teuchos::rcp(new Vector(dofs.owned_dofs()))),
       all_(Teuchos::rcp(new Vector(dofs.all_dofs()))) {
@@ -32,6 +33,7 @@ Space<dim>::Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet, std:
   std::merge(along_axes_.begin(), along_axes_.end(), in_frames.begin(), in_frames.end(),
              std::back_inserter(prescribed_));
   const auto tied = groups_.dofs();
+  add_hanging(tied);
   std::merge(prescribed_.begin(), prescribed_.end(), tied.begin(), tied.end(), std::back_inserter(constrained_));
   for (const int dof : constrained_) is_constrained_[dof] = 1;
   if (dofs.images().empty()) return;
@@ -39,6 +41,17 @@ Space<dim>::Space(const DofMap<dim>& dofs, const Dirichlet<dim>& dirichlet, std:
   for (int dof = dofs.n_real_nodes() * dim; dof < static_cast<int>(n_local()); ++dof) {
     is_constrained_[dof] = is_constrained_[dofs.image(dof / dim).node * dim + dof % dim];
   }
+}
+
+/// Those of hanging nodes are prescribed by their parents', but for groups', which move with these.
+template <int dim>
+void Space<dim>::add_hanging(const std::vector<int>& tied) {
+  const auto hanging = hanging_.dofs();
+  std::vector<int> of_no_group, all;
+  std::set_difference(hanging.begin(), hanging.end(), tied.begin(), tied.end(), std::back_inserter(of_no_group));
+  std::set_union(prescribed_.begin(), prescribed_.end(), of_no_group.begin(), of_no_group.end(),
+                 std::back_inserter(all));
+  prescribed_ = std::move(all);
 }
 
 template <int dim>
@@ -55,6 +68,7 @@ void Space<dim>::expand(base::Field u, double load_factor) const {
   for (const int dof : along_axes_) u[dof] = ramp(dof).at(load_factor) + (starts_.empty() ? 0. : starts_[dof]);
   frames_.prescribe(u, load_factor);
   groups_.prescribe(u, load_factor);
+  hanging_.complete(u);
   dofs_.complete_images(u);
 }
 
@@ -77,6 +91,7 @@ void Space<dim>::complete_change(base::Field change) const {
   for (const int dof : prescribed_) change[dof] = 0.;
   frames_.turn_back(change);
   groups_.project(change);
+  hanging_.complete(change);
   dofs_.complete_images(change);
 }
 
@@ -86,6 +101,7 @@ std::vector<double> Space<dim>::prescribed_rates(double load_factor, double step
   for (const int dof : along_axes_) rates[dof] = ramp(dof).rate_in(load_factor, step);
   frames_.add_rates(base::field(rates), load_factor, step);
   groups_.add_rates(base::field(rates), load_factor, step);
+  hanging_.complete(base::field(rates));
   dofs_.complete_images(base::field(rates));
   return rates;
 }
@@ -94,6 +110,7 @@ template <int dim>
 void Space<dim>::restrict_forces(base::Field forces) const {
   const auto n = static_cast<std::size_t>(forces.size());
   PERIMORPH_ASSERT(n == n_local() || n == n_owned(), "{} forces for {} degrees of freedom", n, n_local());
+  if (n == n_local()) hanging_.gather(forces);
   frames_.turn(forces);
   for (const int dof : prescribed_) {
     if (dof < forces.size()) forces[dof] = 0.;

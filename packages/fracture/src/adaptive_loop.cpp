@@ -70,6 +70,7 @@ LoopEnd run_increment(Body<dim>& body, double prescribed, const LoopLimits& limi
   do {
     if (!position.is_solved) {
       check_limit(position.growths, limits.max_zone_growths, increment, "growths of the zone", "Maximum Zone Growths");
+      if (observer.refinement_wanted(body)) return LoopEnd::refine;
       body.update_topology();
       if (observer.rebalance_wanted(body)) return LoopEnd::rebalance;
       ++position.growths;

@@ -97,13 +97,13 @@ class CrackSearch {
     }
   }
 
-  CrackPlace place() const {
+  CrackPlace place(double size) const {
     auto place = CrackPlace::outside;
     for (int e = 0; e < mesh_.n_elements(); ++e) {
       const double reach = (1. + relative_tolerance) * radius(mesh_, e);
       if (box_.squaredExteriorDistance(centroid(mesh_, e)) > reach * reach) continue;
       if (!enters(e, sides_of(mesh_, e))) continue;
-      if (box_.diagonal().norm() >= shortest * radius(mesh_, e)) return CrackPlace::inside;
+      if (box_.diagonal().norm() >= shortest * size * radius(mesh_, e)) return CrackPlace::inside;
       place = CrackPlace::too_short;
     }
     return place;
@@ -137,11 +137,11 @@ class CrackSearch {
 }  // namespace
 
 template <int dim>
-CrackPlace place_of(const Mesh<dim>& whole, const std::vector<CrackFacet<dim>>& crack) {
-  return CrackSearch<dim>(whole, crack).place();
+CrackPlace place_of(const Mesh<dim>& whole, const std::vector<CrackFacet<dim>>& crack, double size) {
+  return CrackSearch<dim>(whole, crack).place(size);
 }
 
-template CrackPlace place_of<2>(const Mesh<2>&, const std::vector<CrackFacet<2>>&);
-template CrackPlace place_of<3>(const Mesh<3>&, const std::vector<CrackFacet<3>>&);
+template CrackPlace place_of<2>(const Mesh<2>&, const std::vector<CrackFacet<2>>&, double);
+template CrackPlace place_of<3>(const Mesh<3>&, const std::vector<CrackFacet<3>>&, double);
 
 }  // namespace perimorph::mesh

@@ -90,20 +90,32 @@ class NearbyBalls {
   base::PointTree<dim> tree_;
 };
 
+/// Nodes the forces on which are forces on nodes of the rank, per node: its own, and those that hang on them.
 template <int dim>
-bool is_active(const Mesh<dim>& whole, const Owners& owner, int element, int rank) {
-  const int* corners = whole.corners_of(element);
-  return owner.elements[element] == rank ||
-         std::any_of(corners, corners + whole.n_corners(element), [&](int node) { return owner.nodes[node] == rank; });
+std::vector<char> moved_nodes(const Mesh<dim>& whole, const std::vector<int>& node_owners, int rank) {
+  std::vector<char> are_moved(whole.n_nodes(), 0);
+  for (int n = 0; n < whole.n_nodes(); ++n) are_moved[n] = static_cast<char>(node_owners[n] == rank);
+  for (const auto& [node, n_parents, parents] : whole.hanging_nodes) {
+    if (std::any_of(parents.begin(), parents.begin() + n_parents, [&](int n) { return node_owners[n] == rank; }))
+      are_moved[node] = 1;
+  }
+  return are_moved;
+}
+
+template <int dim>
+bool has_corner_in(const Mesh<dim>& mesh, int element, const std::vector<char>& nodes) {
+  const int* corners = mesh.corners_of(element);
+  return std::any_of(corners, corners + mesh.n_corners(element), [&](int node) { return nodes[node] != 0; });
 }
 
 /// The rank's own elements, then all others it needs, each ascending.
 template <int dim>
 std::vector<int> elements_of_rank(const Mesh<dim>& whole, const Owners& owner, const Balls<dim>& balls,
                                   double halo_width, int rank) {
+  const auto moved = moved_nodes(whole, owner.nodes, rank);
   std::vector<int> active;
   for (int e = 0; e < whole.n_elements(); ++e) {
-    if (is_active(whole, owner, e, rank)) active.push_back(e);
+    if (owner.elements[e] == rank || has_corner_in(whole, e, moved)) active.push_back(e);
   }
   const NearbyBalls<dim> active_balls(balls, active, halo_width);
   std::vector<int> own, halo;
@@ -159,6 +171,22 @@ std::vector<Side> restricted(const std::vector<Side>& sides_of_whole, const std:
   return kept;
 }
 
+/// Those of which the rank has the node and all parents.
+std::vector<HangingNode> restricted(const std::vector<HangingNode>& hanging, const std::vector<int>& local) {
+  std::vector<HangingNode> kept;
+  for (HangingNode one : hanging) {
+    one.node = local[one.node];
+    bool is_here = one.node >= 0;
+    for (int i = 0; i < one.n_parents; ++i) {
+      one.parents[i] = local[one.parents[i]];
+      is_here = is_here && one.parents[i] >= 0;
+    }
+    if (is_here) kept.push_back(one);
+  }
+  std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  return kept;
+}
+
 template <int dim>
 void copy_nodes(Mesh<dim>& part, const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& nodes) {
   for (const int n : nodes) {
@@ -199,6 +227,7 @@ Mesh<dim> cut_out(const Mesh<dim>& whole, const Owners& owner, const std::vector
   for (const auto& [name, set] : whole.node_sets) part.node_sets[name] = restricted(set, local_node);
   for (const auto& [name, set] : whole.side_sets) part.side_sets[name] = restricted(set, local_element);
   part.boundary = restricted(whole.boundary, local_element);
+  part.hanging_nodes = restricted(whole.hanging_nodes, local_node);
   return part;
 }
 
@@ -249,11 +278,10 @@ Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& whole, double halo
 
 template <int dim>
 std::vector<char> active_elements(const Mesh<dim>& mesh) {
+  const auto moved = moved_nodes(mesh, mesh.node_owners, mesh.rank);
   std::vector<char> active(mesh.n_elements(), 0);
   for (int e = 0; e < mesh.n_real_elements(); ++e) {
-    const int* corners = mesh.corners_of(e);
-    active[e] = e < mesh.n_owned_elements ||
-                std::any_of(corners, corners + mesh.n_corners(e), [&](int node) { return node < mesh.n_owned_nodes; });
+    active[e] = static_cast<char>(e < mesh.n_owned_elements || has_corner_in(mesh, e, moved));
   }
   return active;
 }

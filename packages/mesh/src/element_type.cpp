@@ -29,21 +29,25 @@ const Properties& properties_of(ElementType type) {
 
 using Corners = std::vector<int>;
 
-std::vector<Corners> sides_of(const shards::CellTopology& element) {
-  const unsigned side_dimension = element.getDimension() - 1;
+std::vector<Corners> subcells(const shards::CellTopology& element, unsigned dimension) {
   std::vector<Corners> all;
-  for (unsigned s = 0; s < element.getSubcellCount(side_dimension); ++s) {
-    Corners& side = all.emplace_back();
-    for (unsigned c = 0; c < element.getNodeCount(side_dimension, s); ++c) {
-      side.push_back(static_cast<int>(element.getNodeMap(side_dimension, s, c)));
+  for (unsigned s = 0; s < element.getSubcellCount(dimension); ++s) {
+    Corners& corners = all.emplace_back();
+    for (unsigned c = 0; c < element.getNodeCount(dimension, s); ++c) {
+      corners.push_back(static_cast<int>(element.getNodeMap(dimension, s, c)));
     }
   }
   return all;
 }
 
-std::array<std::vector<Corners>, n_types> sides_of_all_types() {
+/// @param of(element) dimension of the subcells
+template <class Of>
+std::array<std::vector<Corners>, n_types> subcells_of_all_types(Of of) {
   std::array<std::vector<Corners>, n_types> all;
-  for (int t = 0; t < n_types; ++t) all[t] = sides_of(topology(static_cast<ElementType>(t)));
+  for (int t = 0; t < n_types; ++t) {
+    const auto element = topology(static_cast<ElementType>(t));
+    all[t] = subcells(element, of(element));
+  }
   return all;
 }
 
@@ -54,7 +58,13 @@ int dimension(ElementType type) { return properties_of(type).dimension; }
 std::string exodus_name(ElementType type) { return properties_of(type).exodus_name; }
 
 const std::vector<std::vector<int>>& sides(ElementType type) {
-  static const auto all = sides_of_all_types();
+  static const auto all = subcells_of_all_types([](const auto& element) { return element.getDimension() - 1; });
+  PERIMORPH_DEBUG_ASSERT(static_cast<std::size_t>(type) < all.size(), "element type {}", static_cast<int>(type));
+  return all[static_cast<int>(type)];
+}
+
+const std::vector<std::vector<int>>& edges(ElementType type) {
+  static const auto all = subcells_of_all_types([](const auto&) { return 1u; });
   PERIMORPH_DEBUG_ASSERT(static_cast<std::size_t>(type) < all.size(), "element type {}", static_cast<int>(type));
   return all[static_cast<int>(type)];
 }

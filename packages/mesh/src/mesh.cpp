@@ -81,6 +81,10 @@ void check_numbers(const Mesh<dim>& mesh) {
                          mesh.n_owned_elements);
   PERIMORPH_DEBUG_ASSERT(has_all_sides(mesh, mesh.boundary), "the boundary has a side of none of {} elements",
                          n_elements);
+  for (const auto& [node, n_parents, parents] : mesh.hanging_nodes) {
+    PERIMORPH_DEBUG_ASSERT(are_all_below({parents.begin(), parents.begin() + n_parents}, n_nodes),
+                           "node {} hangs on one that is none of {}", node, n_nodes);
+  }
   for (const auto& [name, nodes] : mesh.node_sets) {
     PERIMORPH_DEBUG_ASSERT(are_all_below(nodes, n_nodes), "group {} has a node that is none of {}", name, n_nodes);
   }

@@ -114,6 +114,7 @@ void visit(AnyMesh& mesh, Visitor& visitor) {
   visitor(mesh.node_sets);
   visitor(mesh.side_sets);
   visitor(mesh.boundary);
+  visitor(mesh.hanging_nodes);
   visitor(mesh.rank);
   visitor(mesh.n_owned_nodes);
   visitor(mesh.n_owned_elements);

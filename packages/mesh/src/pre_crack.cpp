@@ -227,10 +227,14 @@ int open_along(Mesh<dim>& whole, const std::vector<CrackFacet<dim>>& crack) {
     for (std::size_t g = 1; g < groups.size(); ++g) copies[node].push_back(double_node(whole, node, groups[g]));
   }
   for (auto& [name, nodes] : whole.node_sets) add_copies(nodes, copies);
-  find_boundary(whole);
-
-  return static_cast<int>(std::count_if(inner.begin(), inner.end(),
-                                        [&](const InnerSide& side) { return side.on_crack && is_open(whole, side); }));
+  int n_open = 0;
+  for (const auto& side : inner) {
+    if (!side.on_crack || !is_open(whole, side)) continue;
+    whole.boundary.insert(whole.boundary.end(), {side.lower, side.upper});
+    ++n_open;
+  }
+  std::sort(whole.boundary.begin(), whole.boundary.end());
+  return n_open;
 }
 
 template int open_along<2>(Mesh<2>&, const std::vector<CrackFacet<2>>&);

@@ -51,6 +51,11 @@ double Zone<dim>::alpha(const base::Point<dim>& x, BlendingFunction function) co
 }
 
 template <int dim>
+double Zone<dim>::distance(const base::Point<dim>& x) const {
+  return std::max(0., distance_to_core(x) - inner_radius - rim);
+}
+
+template <int dim>
 double Zone<dim>::distance_to_core(const base::Point<dim>& x) const {
   if (core == Core::box) return (lower - x).cwiseMax(x - upper).cwiseMax(0.).norm();
   const base::Point<dim> line = upper - lower;

@@ -16,15 +16,19 @@ namespace {
 
 using Map = Tpetra::Map<>;
 
-/// A mark on owned nodes as it is on all local ones, images too. Collective.
+/// A mark on owned nodes as it is on all local ones, on those that hang on marked ones, and on images. Collective.
 template <int dim>
-std::vector<char> on_all_nodes(const discretization::DofMap<dim>& dofs, const std::vector<int>& marked) {
+std::vector<char> on_all_nodes(const WindowSource<dim>& source, const std::vector<int>& marked) {
+  const auto& dofs = source.model.dofs;
   Tpetra::Vector<double> owned(dofs.owned_dofs()), all(dofs.all_dofs());
   for (const int node : marked) owned.replaceLocalValue(node * dim, 1.);
   all.doImport(owned, *dofs.import(), Tpetra::INSERT);
   const auto values = all.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<char> marks(dofs.n_nodes(), 0);
   for (int node = 0; node < dofs.n_real_nodes(); ++node) marks[node] = static_cast<char>(values(node * dim, 0) != 0.);
+  for (const auto& [node, parents] : source.space.hanging_nodes().ties()) {
+    if (std::any_of(parents.begin(), parents.end(), [&](int parent) { return marks[parent] != 0; })) marks[node] = 1;
+  }
   for (int node = dofs.n_real_nodes(); node < dofs.n_nodes(); ++node) marks[node] = marks[dofs.image(node).node];
   return marks;
 }
@@ -40,6 +44,7 @@ std::vector<int> nodes_of(const WindowSource<dim>& source, const std::vector<cha
     for (int k = 0; k < mesh.n_corners(e); ++k) is_theirs[dofs.nodes_of(e)[k]] = 1;
   }
   for (const int dof : source.space.groups().dofs()) is_theirs[dof / dim] = 0;
+  for (const auto& tie : source.space.hanging_nodes().ties()) is_theirs[tie.node] = 0;
   std::vector<int> nodes;
   for (int node = 0; node < dofs.n_owned_nodes(); ++node) {
     if (is_theirs[node] != 0) nodes.push_back(node);
@@ -123,7 +128,7 @@ MeshPart BodyWindow<dim>::part_around(const WindowSource<dim>& source) const {
   const auto& mesh = source.model.mesh;
   const auto& dofs = source.model.dofs;
   const auto& bonds = source.model.bonds;
-  MeshPart part{std::vector<char>(mesh.n_elements(), 0), on_all_nodes(dofs, nodes_)};
+  MeshPart part{std::vector<char>(mesh.n_elements(), 0), on_all_nodes(source, nodes_)};
   for (int e = 0; e < mesh.n_elements(); ++e) {
     const int* corners = dofs.nodes_of(e);
     part.elements[e] = static_cast<char>(
@@ -162,6 +167,9 @@ void BodyWindow<dim>::find_touched(const WindowSource<dim>& source, const MeshPa
     }
   }
   for (const int dof : space_.groups().dofs()) is_touched[dof / dim] = 1;  // which move with each other
+  for (const auto& [node, parents] : space_.hanging_nodes().ties()) {
+    for (const int parent : parents) is_touched[parent] = static_cast<char>(is_touched[parent] | is_touched[node]);
+  }
   for (int node = dofs.n_real_nodes(); node < dofs.n_nodes(); ++node) {
     if (is_touched[node] != 0) is_touched[dofs.image(node).node] = 1;
   }

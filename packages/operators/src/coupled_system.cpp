@@ -142,6 +142,7 @@ template <int dim>
 std::vector<double> CoupledSystem<dim>::sum_of_forces(const ForceTerms<dim>& terms, base::ConstField u) const {
   std::vector<double> forces(space_->n_local(), 0.);
   for (const auto& term : terms) term->add_force(u, base::field(forces));
+  space_->hanging_nodes().gather(base::field(forces));
   forces.resize(space_->n_owned());
   return forces;
 }

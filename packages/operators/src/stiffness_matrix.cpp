@@ -101,8 +101,9 @@ void StiffnessMatrix<dim>::find_pattern(const Couplings<dim>& couplings) {
   std::vector<std::vector<int>> elements_of(dofs.n_owned_nodes());
   for (int e = 0; e < mesh.n_elements(); ++e) {
     for (int k = 0; k < mesh.n_corners(e); ++k) {
-      const int node = dofs.nodes_of(e)[k];
-      if (node < dofs.n_owned_nodes()) elements_of[node].push_back(e);
+      visit_unknowns_of(dofs.nodes_of(e)[k], [&](int node, double) {
+        if (node < dofs.n_owned_nodes()) elements_of[node].push_back(e);
+      });
     }
   }
   std::vector<int> seen_by(dofs.n_nodes(), -1);
@@ -115,7 +116,9 @@ void StiffnessMatrix<dim>::find_pattern(const Couplings<dim>& couplings) {
       columns_.push_back(node);
     };
     const auto include_all = [&](int element) {
-      for (int k = 0; k < mesh.n_corners(element); ++k) include(dofs.nodes_of(element)[k]);
+      for (int k = 0; k < mesh.n_corners(element); ++k) {
+        visit_unknowns_of(dofs.nodes_of(element)[k], [&](int node, double) { include(node); });
+      }
     };
     include(row);
     for (const int node : couplings.nodes[row]) include(node);
@@ -159,6 +162,22 @@ void StiffnessMatrix<dim>::make_matrix() {
 }
 
 template <int dim>
+template <class Visit>
+void StiffnessMatrix<dim>::visit_unknowns_of(int node, Visit visit) const {
+  const auto& parents = space_.hanging_nodes().parents_of(node);
+  if (parents.empty()) return visit(node, 1.);
+  for (const int parent : parents) visit(parent, 1. / static_cast<double>(parents.size()));
+}
+
+template <int dim>
+void StiffnessMatrix<dim>::add_between_nodes(int row, int column, const Block& block) {
+  visit_unknowns_of(row, [&](int i, double of_row) {
+    if (i >= model_.dofs.n_owned_nodes()) return;
+    visit_unknowns_of(column, [&](int j, double of_column) { add_block(i, j, of_row * of_column * block); });
+  });
+}
+
+template <int dim>
 void StiffnessMatrix<dim>::add_block(int row, int column, const Block& of_nodes) {
   if (of_nodes.isZero(0.)) return;  // perhaps no entry either
   if (column >= model_.dofs.n_real_nodes()) {
@@ -183,8 +202,7 @@ void StiffnessMatrix<dim>::add_element(int element, const Eigen::Ref<const Eigen
   const int n = model_.mesh.n_corners(element);
   PERIMORPH_ASSERT(k.rows() == n * dim && k.cols() == n * dim, "{} x {} numbers for {} nodes", k.rows(), k.cols(), n);
   for (int i = 0; i < n; ++i) {
-    if (nodes[i] >= model_.dofs.n_owned_nodes()) continue;
-    for (int j = 0; j < n; ++j) add_block(nodes[i], nodes[j], k.template block<dim, dim>(i * dim, j * dim));
+    for (int j = 0; j < n; ++j) add_between_nodes(nodes[i], nodes[j], k.template block<dim, dim>(i * dim, j * dim));
   }
 }
 

@@ -14,7 +14,7 @@ using base::GlobalId;
 
 namespace {
 
-constexpr GlobalId current_format = 6;
+constexpr GlobalId current_format = 7;
 constexpr int solves_between = 20;  // states within an increment from which it goes on to the last bit
 constexpr const char *format_name = "format", *case_name = "case";
 
@@ -53,13 +53,14 @@ void describe_results(DataSets& sets, State& results) {
 
 /// What a checkpoint belongs to, but for the case.
 template <class DataSets, class Position, class Increments, class Mesh, class Costs>
-void describe_origin(DataSets& sets, Position& position, Increments& planned_increments, Mesh& mesh,
+void describe_origin(DataSets& sets, Position& position, Increments& planned_increments, Mesh& mesh, Mesh& refinements,
                      Costs& element_costs) {
   sets.integers("increment", position.increment, position.growths, position.damage_iterations, position.is_solved,
                 position.accuracy, position.broken_before);
   sets.numbers("load_step", position.step.begin, position.step.size);
   sets.integers("planned_increments", planned_increments);
   sets.list("mesh", mesh);
+  sets.list("refinements", refinements);
   sets.list("element_costs", element_costs);
 }
 
@@ -155,7 +156,7 @@ std::optional<io::Checkpoint> Checkpoints<dim>::load() {
     return {};
   }
   DataSetReader reader(*comm_, loaded);
-  describe_origin(reader, position_, planned_increments_, loaded_mesh_, element_costs_);
+  describe_origin(reader, position_, planned_increments_, loaded_mesh_, refinements_, element_costs_);
   if (comm_->getRank() != 0) element_costs_.clear();
   describe_results(reader, results_.emplace());
   results_->seconds_before = results_->seconds;
@@ -220,6 +221,7 @@ void Checkpoints<dim>::remember(const fracture::LoopPosition& position, const fr
                                 const std::vector<double>& element_costs) {
   loaded_.reset();
   element_costs_ = element_costs;
+  refinements_ = refinements_of_mesh_;
   body_ = body.save();
   owned_elements_ = owned_ids(body.mesh());
   last_remembered_ = now();
@@ -282,7 +284,7 @@ void Checkpoints<dim>::write(Results<dim>& results) {
     DataSetWriter writer(checkpoint);
     writer.integers(format_name, current_format);
     checkpoint.texts[case_name] = case_lines_;
-    describe_origin(writer, position_, planned_increments_, mesh_identity_, element_costs_);
+    describe_origin(writer, position_, planned_increments_, mesh_identity_, refinements_, element_costs_);
     auto at_position = *results_;
     at_position.seconds = remembered_seconds_;
     describe_results(writer, at_position);

@@ -1,5 +1,6 @@
 #include "perimorph/output/state_transfer.hpp"
 
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <algorithm>
 
 #include "data_sets.hpp"
@@ -64,7 +65,80 @@ std::vector<double> fetch(const base::Comm& comm, const std::vector<GlobalId>& e
   return base::exchange(comm, answers)[0];
 }
 
+/// Values at the corners of elements, on a finer mesh.
+template <int dim>
+std::vector<double> interpolated(const std::vector<double>& values, const std::vector<mesh::Descent>& descents) {
+  constexpr auto stride = static_cast<std::size_t>(SavedState<dim>::values_per_element);
+  std::vector<double> finer(descents.size() * stride, 0.);
+  for (std::size_t e = 0; e < descents.size(); ++e) {
+    const auto& [ancestor, weights] = descents[e];
+    const double* from = values.data() + static_cast<std::size_t>(ancestor) * stride;
+    double* to = finer.data() + e * stride;
+    if (weights.empty()) std::copy_n(from, stride, to);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      for (std::size_t l = 0; l < weights[k].size(); ++l) {
+        for (std::size_t c = 0; c < dim; ++c) to[k * dim + c] += weights[k][l] * from[l * dim + c];
+      }
+    }
+  }
+  return finer;
+}
+
+/// The elements that are in both meshes, by their ids in the coarser one; -1 for those that are divided.
+std::vector<GlobalId> undivided(const std::vector<mesh::Descent>& descents) {
+  std::vector<GlobalId> ids;
+  for (std::size_t e = 0; e < descents.size(); ++e) {
+    const auto ancestor = static_cast<std::size_t>(descents[e].ancestor);
+    ids.resize(std::max(ids.size(), ancestor + 1), -1);
+    if (descents[e].weights.empty()) ids[ancestor] = static_cast<GlobalId>(e);
+  }
+  return ids;
+}
+
 }  // namespace
+
+template <int dim>
+std::vector<FlagPoint<dim>> share_flag_points(const base::Comm& comm, const io::Checkpoint& gathered) {
+  SavedState<dim> state;
+  DataSetReader reader(comm, gathered);
+  describe(reader, state, FlagPoint<dim>{});
+  return state.flag_points;
+}
+
+template <int dim>
+io::Checkpoint refine_state(const io::Checkpoint& gathered, const std::vector<mesh::Descent>& descents) {
+  const Teuchos::SerialComm<int> alone;
+  SavedState<dim> state;
+  DataSetReader reader(alone, gathered);
+  describe(reader, state, FlagPoint<dim>{});
+  const auto ids = undivided(descents);
+  const auto follow = [&](GlobalId& element) {
+    element = ids[element];
+    PERIMORPH_ASSERT(element >= 0, "an element with {} broken bonds is divided", state.broken.size());
+  };
+  const auto follow_points = [&](auto& records) {
+    constexpr int n = elements::max_points;
+    for (auto& record : records) {
+      for (GlobalId* point : {&record.first, &record.second}) {
+        GlobalId element = *point / n;
+        follow(element);
+        *point = element * n + *point % n;
+      }
+    }
+  };
+  for (auto& flag : state.flag_points) follow(flag.element);
+  follow_points(state.broken);
+  follow_points(state.softened);
+  follow_points(state.slips);
+  io::Checkpoint finer;
+  DataSetWriter writer(finer);
+  describe(writer, state, FlagPoint<dim>{});
+  for (const char* name : {displacement_name, starts_name}) {
+    const auto found = gathered.numbers.find(name);
+    if (found != gathered.numbers.end()) finer.numbers[name] = interpolated<dim>(found->second, descents);
+  }
+  return finer;
+}
 
 template <int dim>
 std::vector<GlobalId> owned_ids(const mesh::Mesh<dim>& mesh) {
@@ -117,6 +191,8 @@ SavedState<dim> share_state(const base::Comm& comm, const io::Checkpoint& gather
   template std::vector<GlobalId> owned_ids(const mesh::Mesh<dim>&);                                              \
   template io::Checkpoint gather_state(const base::Comm&, const SavedState<dim>&, const std::vector<GlobalId>&); \
   template io::Checkpoint gather_state(const base::Comm&, const fracture::Body<dim>&);                           \
+  template std::vector<FlagPoint<dim>> share_flag_points(const base::Comm&, const io::Checkpoint&);              \
+  template io::Checkpoint refine_state<dim>(const io::Checkpoint&, const std::vector<mesh::Descent>&);           \
   template SavedState<dim> share_state(const base::Comm&, const io::Checkpoint&, const mesh::Mesh<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <nanoflann.hpp>
@@ -46,6 +47,18 @@ class PointTree {
     FirstThatHolds<Predicate> result{holds, squared_reach(radius)};
     if (!points_.list.empty()) tree_.findNeighbors(result, center.data(), nanoflann::SearchParams());
     return result.is_found;
+  }
+
+  /// Of a point from the nearest, [length]; infinite if there are none. Local.
+  /// @param x (dim), [length]
+  double distance(const Point<dim>& x) const {
+    if (points_.list.empty()) return std::numeric_limits<double>::infinity();
+    std::size_t nearest = 0;
+    double squared = 0.;
+    nanoflann::KNNResultSet<double> result(1);
+    result.init(&nearest, &squared);
+    tree_.findNeighbors(result, x.data(), nanoflann::SearchParams());
+    return std::sqrt(squared);
   }
 
  private:

@@ -6,6 +6,7 @@
 #include "perimorph/input/section.hpp"
 #include "perimorph/input/values.hpp"
 #include "perimorph/mesh_files/gmsh.hpp"
+#include "perimorph/model/numerical_options.hpp"
 
 namespace perimorph::cases {
 
@@ -18,7 +19,7 @@ struct MeshSource {
   mesh_files::MeshingLimits meshing;
 };
 
-void declare(const input::Section& section, MeshSource& mesh);
+void declare(const input::Section& section, MeshSource& mesh, model::NumericalOptions& numerical);
 
 void check_mesh_source(const input::Values& section, int dimension);
 

@@ -37,6 +37,7 @@ class DofMap {
   DofMap(const Teuchos::RCP<const base::Comm>& comm, const mesh::Mesh<dim>& mesh, const HaloExchange& corners,
          const std::vector<char>& discontinuous);
 
+  const mesh::Mesh<dim>& mesh() const { return mesh_; }
   int n_nodes() const { return static_cast<int>(reference_nodes_.size()); }
   int n_owned_nodes() const { return n_owned_nodes_; }
   int n_real_nodes() const { return n_nodes() - static_cast<int>(images_.size()); }

@@ -7,15 +7,16 @@
 #include "perimorph/base/field.hpp"
 #include "perimorph/discretization/boundary_conditions.hpp"
 #include "perimorph/discretization/group_ties.hpp"
+#include "perimorph/discretization/hanging_nodes.hpp"
 #include "perimorph/discretization/node_frames.hpp"
 
 namespace perimorph::discretization {
 
 /// What turns the unknowns of a topology into displacements at all nodes of this rank, and forces on nodes back into
 /// forces on unknowns. Every degree of freedom is an unknown, by and large the displacement of an owned node along an
-/// axis, but for those that are constrained: prescribed, across a plane of symmetry, or one of a group's that moves as
-/// one. Fields on nodes are (n_nodes, dim), owned nodes first, mirror images last. What is collective says so; what
-/// else there is of groups and frames is local.
+/// axis, but for those that are constrained: prescribed, across a plane of symmetry, of a hanging node, or one of a
+/// group's that moves as one. Fields on nodes are (n_nodes, dim), owned nodes first, mirror images last. What is
+/// collective says so; what else there is of groups and frames is local.
 template <int dim>
 class Space {
  public:
@@ -36,7 +37,8 @@ class Space {
   const std::vector<int>& constrained() const {
     return constrained_;
   }  ///< local degrees of freedom, ascending, images without
-  const std::vector<int>& prescribed() const { return prescribed_; }  ///< the same of them
+  /// Of these, those that are none of a group's: they follow from what is prescribed and from other nodes.
+  const std::vector<int>& prescribed() const { return prescribed_; }
 
   /// Completes a displacement from its values on owned nodes: copies, and what is constrained. Collective.
   /// @param u on all local degrees of freedom, [length]
@@ -56,9 +58,10 @@ class Space {
   /// of freedom; zero where nothing is prescribed, [length]. Local.
   std::vector<double> prescribed_rates(double load_factor, double step) const;
 
-  /// Takes forces on nodes to forces on unknowns: none where the displacement is prescribed, and of a group's those
-  /// that move it. Collective where there are groups.
-  /// @param forces on all local degrees of freedom, or on owned ones, [force]
+  /// Takes forces on nodes to forces on unknowns: none where the displacement is prescribed, those on hanging nodes to
+  /// their parents, and of a group's those that move it. Collective where there are groups.
+  /// @param forces on all local degrees of freedom, or on owned ones without hanging nodes' (HangingNodes::gather),
+  ///        [force]
   void restrict_forces(base::Field forces) const;
 
   /// Whether what is prescribed at a node decides about a component of its displacement, at least in part.
@@ -69,6 +72,7 @@ class Space {
 
   const NodeFrames<dim>& frames() const { return frames_; }
   const GroupTies<dim>& groups() const { return groups_; }
+  const HangingNodes<dim>& hanging_nodes() const { return hanging_; }
 
  private:
   const DofMap<dim>& dofs_;
@@ -76,12 +80,14 @@ class Space {
   std::vector<double> starts_;
   NodeFrames<dim> frames_;
   GroupTies<dim> groups_;
+  HangingNodes<dim> hanging_;
   std::vector<int> along_axes_;  ///< of those that are prescribed, along x, y or z; zero across planes of symmetry
   std::vector<int> prescribed_, constrained_;
   std::vector<char> is_constrained_;  ///< per local degree of freedom
   Teuchos::RCP<Vector> owned_, all_;
   mutable std::vector<double> with_images_;  ///< (n_local); empty without images
 
+  void add_hanging(const std::vector<int>& tied);
   Ramp<double> ramp(int dof) const { return dirichlet_.ramp(dofs_.reference_node(dof / dim), dof % dim); }
 };
 

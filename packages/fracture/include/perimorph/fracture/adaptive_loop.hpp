@@ -27,10 +27,10 @@ struct LoopPosition {
   Accuracy accuracy = Accuracy::breaking;
 };
 
-/// Why the loop returns: all is done; it was asked to stop; the mesh is to be repartitioned; or an increment was cut.
-/// After the first two of the latter it can go on from its position with a body restored from the state of this one,
-/// after the last with one restored from the state after the last accepted increment.
-enum class LoopEnd { done, stopped, rebalance, cut };
+/// Why the loop returns: all is done; it was asked to stop; the mesh is to be refined, or repartitioned; or an
+/// increment was cut. In the three cases before the last it can go on from its position with a body restored from the
+/// state of this one, in the last with one restored from the state after the last accepted increment.
+enum class LoopEnd { done, stopped, refine, rebalance, cut };
 
 /// Is called on what happens in the loop, and may interrupt it. All calls are collective, and all ranks answer alike.
 template <int dim>
@@ -47,6 +47,9 @@ class LoopObserver {
   /// Whether the loop is to return now, after a solve. From this position it can go on with a body restored from the
   /// state of this one, too.
   virtual bool stop_requested(const LoopPosition& /*position*/, Body<dim>& /*body*/) { return false; }
+
+  /// Whether the loop is to return for a finer mesh, before a change of topology.
+  virtual bool refinement_wanted(const Body<dim>& /*body*/) { return false; }
 
   /// Whether the loop is to return for a new partition, after a change of topology.
   virtual bool rebalance_wanted(const Body<dim>& /*body*/) { return false; }

@@ -18,5 +18,7 @@ std::string exodus_name(ElementType type);
 
 /// Corners of each side (edge in 2D, face in 3D), outward orientation: sides(quad4)[1] = {1, 2}.
 const std::vector<std::vector<int>>& sides(ElementType type);
+/// Corners of each edge, (n_edges, 2); in 2D the same.
+const std::vector<std::vector<int>>& edges(ElementType type);
 
 }  // namespace perimorph::mesh

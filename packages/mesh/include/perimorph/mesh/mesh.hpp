@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,14 +34,23 @@ struct Image {
   Point<dim> signs;  ///< 1 or -1, by which components of vectors there become those of the image
 };
 
+/// A node in the middle of an edge, or of a quadrilateral face, of a larger element, which is connected to the smaller
+/// ones beyond by its displacement there: the mean of that edge's or face's corners.
+struct HangingNode {
+  int node;
+  int n_parents;               ///< 2 or 4
+  std::array<int, 4> parents;  ///< local nodes, none of which hangs itself
+};
+
 /// The reference mesh, or the part of it that one rank holds: its own elements and a halo of its neighbours'.
 /// As read from a file it is whole, lies on rank 0 and belongs to rank 0; distribute() gives every rank its part.
 /// Nothing in it changes afterwards: elements that become discontinuous change only degrees of freedom.
 ///
 /// Local indices are ints. Local elements are ordered: owned ones first, then the halo, each by ascending global id.
 /// Local nodes likewise: owned, then others, by ascending global id. A rank's part holds all elements around each node
-/// that it owns. Images of elements beyond planes of symmetry (images.hpp) are the last of its elements: they are no
-/// part of the body and belong to no rank, but have neighbours in it. They share the nodes on the planes with it.
+/// that it owns, and around each that hangs on one of these. Images of elements beyond planes of symmetry (images.hpp)
+/// are the last of its elements: they are no part of the body and belong to no rank, but have neighbours in it. They
+/// share the nodes on the planes with it.
 template <int dim>
 struct Mesh {
   // Nodes, indexed by local node.
@@ -65,6 +75,10 @@ struct Mesh {
 
   /// Sides of local elements that belong to one element of the whole body only: its boundary, pre-cracks included.
   std::vector<Side> boundary;
+
+  /// Of a mesh that is refined in places (refinement.hpp), by ascending node; of a rank's part those whose parents it
+  /// has, which are all that its active elements have (distribute.hpp).
+  std::vector<HangingNode> hanging_nodes;
 
   std::vector<SymmetryPlane> symmetry_planes;
   std::vector<Image<dim>> images;  ///< what the last elements are images of, in their order

@@ -1,11 +1,24 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "perimorph/discretization/topology.hpp"
 #include "perimorph/morphing/morphing_field.hpp"
 #include "perimorph/operators/coupled_system.hpp"
 #include "perimorph/solvers/linear_solver.hpp"
 
 namespace perimorph::model {
+
+/// Where the mesh is refined by itself. Lengths are in sizes of the finest elements [-].
+struct RefinementOptions {
+  int levels = 0;           ///< how often elements are divided where they are finest; 0: nowhere
+  double margin = 3.;       ///< how far they are so beyond the reach of bonds, at least 2
+  double grading = 3.;      ///< beyond, an element may be as large as its distance from there over this
+  double look_ahead = 10.;  ///< how much further they are so around cracks that come near to larger elements
+  std::vector<std::string> groups = {};  ///< of nodes, around which elements are finest, too
+  double perturbation = 0.;  ///< by how much of its shortest edge an inner node of finest elements may be moved [-]
+};
 
 /// How a body is discretized, and how well its equations are solved. Lengths have no defaults: they depend on the
 /// horizon.
@@ -23,6 +36,7 @@ struct NumericalOptions {
   operators::PreconditionerMatrix preconditioner_matrix = operators::PreconditionerMatrix::short_range;
   double short_range_cut_off = 0.;  ///< of the bonds in the short-range matrix, [length]
   operators::WindowOptions window;  ///< around bonds that break
+  RefinementOptions refinement;
   solvers::SolverParameters solver;
 };
 

@@ -40,6 +40,10 @@ struct Zone {
   /// @param x (dim), [length]
   double alpha(const base::Point<dim>& x, BlendingFunction function) const;
 
+  /// How far a point is from where alpha > 0; 0 there, [length].
+  /// @param x (dim), [length]
+  double distance(const base::Point<dim>& x) const;
+
  private:
   double distance_to_core(const base::Point<dim>& x) const;
 };

@@ -98,6 +98,10 @@ class StiffnessMatrix {
   }
   void find_pattern(const Couplings<dim>& couplings);
   void make_matrix();
+  /// Calls visit(node, weight) for the nodes that a node's displacement follows: itself, or its parents if it hangs.
+  template <class Visit>
+  void visit_unknowns_of(int node, Visit visit) const;
+  void add_between_nodes(int row, int column, const Block& block);
   void add_block(int row, int column, const Block& of_nodes);
 };
 

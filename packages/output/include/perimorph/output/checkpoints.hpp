@@ -46,12 +46,17 @@ class Checkpoints {
   /// The cost of each element when the checkpoint that was loaded was written; on rank 0, {} if none was. Local.
   const std::vector<double>& element_costs() const { return element_costs_; }
 
+  /// The refinements of the mesh that the state at the position belongs to (model::Refinement::calls). Local.
+  const std::vector<base::GlobalId>& refinements() const { return refinements_; }
+
   /// Removes all that are later than the position, which an earlier run has left. Collective.
   void remove_later() const;
 
   /// The results before the first increment: from then on there is something to go on from. Local.
-  void begin(const ResultsState& results) {
+  /// @param refinements of the mesh that states will belong to from now on
+  void begin(const ResultsState& results, std::vector<base::GlobalId> refinements = {}) {
     if (!results_) results_ = results;
+    refinements_of_mesh_ = std::move(refinements);
   }
 
   /// The state after the last accepted increment, to which one that was cut goes back; none: the beginning. Collective.
@@ -95,6 +100,7 @@ class Checkpoints {
   std::optional<ResultsState> results_;         ///< at the last accepted increment
   double remembered_seconds_ = 0.;              ///< of the run, at the position that is remembered, [s]
   std::vector<double> element_costs_;
+  std::vector<base::GlobalId> refinements_, refinements_of_mesh_;
   std::optional<io::Checkpoint> loaded_;  ///< as long as nothing else is remembered
 
   double last_remembered_, last_written_;  ///< [s]

@@ -3,6 +3,7 @@
 #include "perimorph/discretization/saved_state.hpp"
 #include "perimorph/fracture/body.hpp"
 #include "perimorph/io/checkpoint.hpp"
+#include "perimorph/mesh/refinement.hpp"
 
 namespace perimorph::output {
 
@@ -20,6 +21,16 @@ io::Checkpoint gather_state(const base::Comm& comm, const discretization::SavedS
 /// The same of a body as it now is. Collective.
 template <int dim>
 io::Checkpoint gather_state(const base::Comm& comm, const fracture::Body<dim>& body);
+
+/// The flag points of a state that rank 0 has, on all ranks. Collective.
+template <int dim>
+std::vector<discretization::FlagPoint<dim>> share_flag_points(const base::Comm& comm, const io::Checkpoint& gathered);
+
+/// A state on a finer mesh, in which all elements with bonds that have broken, softened or slid are what they
+/// were; displacements are interpolated. Local, on rank 0.
+/// @param descents how the elements of that mesh descend from those that the state belongs to
+template <int dim>
+io::Checkpoint refine_state(const io::Checkpoint& gathered, const std::vector<mesh::Descent>& descents);
 
 /// What a rank needs of a state that rank 0 has: the displacement of all its local elements, and all that is alike on
 /// all ranks. Collective.
