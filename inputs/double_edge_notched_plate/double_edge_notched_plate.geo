@@ -1,16 +1,18 @@
 // Double-edge-notched plate (Nooru-Mohamed): 200 x 200, a notch 25 deep and 5 wide on both sides at mid-height.
 // Lengths in mm. Quadrilaterals of size dx, irregular, so that cracks may bend; around the notches' tips regular patches
 // of smaller elements, since their size decides at which load the first bond breaks.
-dx = 1;
+If (!Exists(dx))
+  dx = 1;
+  // Both patches: columns beside the notch's end, rows below, in front of and above the notch. Full-quad recombination
+  // wants even numbers of elements on every curve.
+  columns = 8;
+  rows() = {8, 6, 8};
+EndIf
 size = 1.32 * dx;  // recombined quadrilaterals come out smaller than asked for
 
 depth = 25;       // of the notches
 half_notch = 2.5;
 
-// Both patches: columns beside the notch's end, rows below, in front of and above the notch. Full-quad recombination
-// wants even numbers of elements on every curve.
-columns = 8;
-rows() = {8, 6, 8};
 tip = 0.72 * dx;
 height() = {-half_notch - rows(0) * tip, -half_notch, half_notch, half_notch + rows(2) * tip};
 

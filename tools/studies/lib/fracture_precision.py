@@ -39,6 +39,7 @@ def slab(length, horizon, **changes):
     return {"layers": 4, "calibration": "Analytic", "half_width": 50.0, "l": length, "horizon": horizon,
             "zone": 1.0 + 2.0 / horizon, **changes}
 
+PERTURBATION = 0.25  # of the edges
 
 STUDIES = {2: {
     "resistance": [{"l": l, "horizon": horizon_for(l), "discontinuous": discontinuous, "stiffness": stiffness,
@@ -47,6 +48,7 @@ STUDIES = {2: {
               for stiffness in (DROPPED, KEPT) for l in LENGTHS[1:]],
     "mesh": [{"l": l, "horizon": horizon_for(l), "mesh": "irregular"} for l in LENGTHS]
             + [{"mesh": "disc", "direction": direction, "half_width": 40.0} for direction in (0, 15, 30, 45)],
+    "perturbation": [{"mesh": "perturbed disc", "direction": direction, "half_width": 40.0} for direction in (0, 15, 30, 45)],
     "kind": [{"mesh": mesh} for mesh in ("triangles", "gmsh", "gmsh triangles")],
     "points": [{"l": l, "horizon": horizon_for(l), "points": 3, "calibration": "Analytic"} for l in LENGTHS],
     "rule": [{"fraction": 0.3}],
@@ -168,7 +170,7 @@ def disc(radius, direction):
 
 def body_of(setting, folder):
     mesh, half_width = setting["mesh"], setting["half_width"]
-    if mesh == "disc":
+    if mesh.endswith("disc"):
         return disc(half_width, np.radians(setting["direction"]))
     if mesh.startswith("gmsh"):
         return gmshs_own(half_width, folder, mesh == "gmsh triangles")
@@ -201,7 +203,7 @@ def case_of(folder, setting):
     return {
         "Title": "A crack under the displacement of mode I on the outer boundary",
         "Dimension": 3 if layers else 2,
-        "Mesh": {"File": "crack.msh"},
+        "Mesh": {"File": "crack.msh", "Perturbation": PERTURBATION if setting["mesh"].startswith("perturbed") else 0.0},
         "Material": {**material(layers, setting["ratio"]), "Fracture Energy": G_C, "Calibration": setting["calibration"]},
         "Peridynamics": {"Horizon": horizon, "Characteristic Length": setting["l"],
                          "Points per Direction": setting["points"]},
