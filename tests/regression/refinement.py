@@ -12,7 +12,7 @@ import netCDF4
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import CASE, EVERY, GrowingCrack, changed, msh, settings
+from fixture import CASE, EVERY, HALF, GrowingCrack, case_file, changed, msh, settings
 
 SIZE = 4.0  # of the elements in the file: four finest ones
 EVERYWHERE = settings("Mesh/Refinement/Margin=1000")
@@ -28,6 +28,17 @@ def wide_plate(n=12):
     elements += [(1, 3, [node(n, j), node(n, j + 1)]) for j in range(n)]
     elements += [(3, 4, [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]) for j in range(n) for i in range(n)]
     return msh(['1 1 "lower"', '1 2 "upper"', '1 3 "right"', '2 4 "body"'], nodes, elements)
+
+
+def half_of_wide_plate(n=12):
+    """Its upper half, with its lower edge beside the slit as "ligament"."""
+    node = lambda i, j: j * (n + 1) + i + 1
+    nodes = [(node(i, j), i * SIZE, (n // 2 + j) * SIZE, 0) for j in range(n // 2 + 1) for i in range(n + 1)]
+    elements = [(1, 1, [node(i, n // 2), node(i + 1, n // 2)]) for i in range(2)]
+    elements += [(1, 2, [node(i, 0), node(i + 1, 0)]) for i in range(3, n)]
+    elements += [(1, 3, [node(n, j), node(n, j + 1)]) for j in range(n // 2)]
+    elements += [(3, 4, [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]) for j in range(n // 2) for i in range(n)]
+    return msh(['1 1 "upper"', '1 2 "ligament"', '1 3 "right"', '2 4 "body"'], nodes, elements)
 
 
 def wide_block(n=(16, 10, 1)):
@@ -157,6 +168,26 @@ class Continued(Refined):
         self.run_until(5, *cut)
         self.run_until(self.END, *cut, "--restart")
         self.assert_same(self.outcome(), whole)
+
+
+class Half(Refined):
+    """The crack on a plane of symmetry: bonds with images, whose ids change with the mesh as well."""
+
+    MESH = half_of_wide_plate()
+    CASE = changed(Refined.CASE, HALF)
+
+    def test_it_is_half_of_the_whole_and_goes_on_with_the_same_bits(self):
+        self.run_until(self.END, *EVERY, ranks=2)
+        half = self.rows()
+        self.assertGreater(len(self.refinements()), 2)
+        self.assert_continues(self.outcome(), 5, *EVERY, ranks=2)
+        (self.folder / "plate.msh").write_text(wide_plate())
+        case_file.write_case(self.case, changed(Refined.CASE, {"Boundary Conditions/Displacements/hold y": None}))
+        self.output = self.folder / "whole"
+        self.run_until(self.END)
+        for row, whole in zip(half, self.rows(), strict=True):
+            self.assertEqual(2 * int(row["damaged_elements"]), int(whole["damaged_elements"]))
+            self.assertAlmostEqual(2 * float(row["elastic_energy"]) / float(whole["elastic_energy"]), 1, places=5)
 
 
 class Block(Refined):

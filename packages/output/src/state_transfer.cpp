@@ -112,9 +112,11 @@ io::Checkpoint refine_state(const io::Checkpoint& gathered, const std::vector<me
   DataSetReader reader(alone, gathered);
   describe(reader, state, FlagPoint<dim>{});
   const auto ids = undivided(descents);
+  const auto n_before = static_cast<GlobalId>(ids.size()), n_after = static_cast<GlobalId>(descents.size());
   const auto follow = [&](GlobalId& element) {
-    element = ids[element];
-    PERIMORPH_ASSERT(element >= 0, "an element with {} broken bonds is divided", state.broken.size());
+    const GlobalId found = ids[element % n_before], images = element / n_before;  // mesh/images.hpp
+    PERIMORPH_ASSERT(found >= 0, "an element with {} broken bonds is divided", state.broken.size());
+    element = images * n_after + found;
   };
   const auto follow_points = [&](auto& records) {
     constexpr int n = elements::max_points;
