@@ -162,7 +162,7 @@ class Run {
   void to_the_end() {
     auto refinement =
         refine(comm_, read(), input_, checkpoints_.planned_increments(), problem_, profile_, console_.log);
-    if (start_) go_to_start(refinement);
+    return_to_start(refinement);
     auto costs = checkpoints_.element_costs();
     if (costs.empty()) costs = expected_costs(refinement);
     output::Rebalancing<dim> rebalancing(comm_, input_.solver.largest_imbalance, std::move(costs), console_.log);
@@ -199,11 +199,14 @@ class Run {
     return std::move(checked.whole);
   }
 
-  /// The mesh becomes that of the state from which the next body goes on; none: the first one.
-  void go_to_start(model::Refinement<dim>& refinement) const {
+  /// The mesh becomes that of the state from which the next body goes on; none: the first one. Returns whether it was
+  /// another.
+  bool return_to_start(model::Refinement<dim>& refinement) const {
     using FlagPoints = typename model::Refinement<dim>::FlagPoints;
+    if (refinement.calls() == checkpoints_.refinements()) return false;
     refinement.go_to(start_ ? output::share_flag_points<dim>(*comm_, *start_) : FlagPoints(),
                      checkpoints_.refinements());
+    return true;
   }
 
   std::vector<double> expected_costs(const model::Refinement<dim>& refinement) const {
@@ -230,9 +233,8 @@ class Run {
         console_.log->info("cut              step {} again, to load {:.6g}", position.increment + 1,
                            position.step.end());
         start_ = checkpoints_.start_of_increment();
-        if (refinement.calls() != checkpoints_.refinements()) {
-          go_to_start(refinement);
-          rebalancing.follow(expected_costs(refinement));
+        if (return_to_start(refinement)) {
+          rebalancing.set_element_costs(expected_costs(refinement));
           return false;
         }
         start_on(mesh, body);
@@ -275,7 +277,7 @@ class Run {
     });
     std::vector<double> costs;
     for (const auto& descent : descents) costs.push_back(rebalancing.element_costs()[descent.ancestor]);
-    rebalancing.follow(std::move(costs));
+    rebalancing.set_element_costs(std::move(costs));
     describe(refinement, console_.log);
   }
 

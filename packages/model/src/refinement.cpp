@@ -80,20 +80,14 @@ Refinement<dim>::Refinement(Teuchos::RCP<const base::Comm> comm, mesh::Mesh<dim>
       problem_(problem),
       options_(options.refinement),
       zone_radius_(options.growth_outer_radius) {
-  if (!is_refined()) {
-    if (options_.perturbation > 0. && comm_->getRank() == 0) {
-      mesh::perturb(root_, options_.perturbation, mesh::node_keys(root_.n_nodes()),
-                    std::vector<char>(root_.n_elements(), 1));
-    }
-    return;
-  }
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
+    if (!is_refined()) return perturb();
     spacing_ = std::ldexp(mesh::mean_edge(root_), -options_.levels);
     find_cracks();
     find_groups();
   });
-  refine({});
+  if (is_refined()) refine({});
 }
 
 template <int dim>
@@ -134,12 +128,12 @@ void Refinement<dim>::find_groups() {
 
 template <int dim>
 bool Refinement<dim>::serves(const FlagPoints& flag_points) {
-  constexpr double clearance = 2.;  // more than the diameter of an element at a hanging node, in its size
+  constexpr double diameter = 2.;  // of a finest element at a hanging node, which may lie beside it, in its radius
   if (!is_refined() || n_served_ >= flag_points.size()) return true;
   const base::PointTree<dim> tree(places_of(flag_points, n_served_, flag_points.size()));
   const double reach = zone_radius_ + problem_.horizon();
   const bool is_near = std::any_of(coarse_.begin(), coarse_.end(), [&](const CoarseElement& element) {
-    return tree.distance(element.center) < reach + element.radius + clearance * element.finest_size;
+    return tree.distance(element.center) < reach + element.radius + diameter * element.finest_radius;
   });
   if (base::max(*comm_, static_cast<GlobalId>(is_near)) > 0) return false;
   n_served_ = flag_points.size();
@@ -193,10 +187,14 @@ void Refinement<dim>::refine(const FlagPoints& flag_points) {
   n_served_ = flag_points.size();
 }
 
-/// Nodes that opening has doubled stay, as all do on pre-cracks.
+/// Without refinement all elements are finest ones. Nodes that opening has doubled stay, as all do on pre-cracks.
 template <int dim>
 void Refinement<dim>::perturb() {
   if (options_.perturbation == 0.) return;
+  if (!is_refined()) {
+    const std::vector<char> all(root_.n_elements(), 1);
+    return mesh::perturb(root_, options_.perturbation, mesh::node_keys(root_.n_nodes()), all);
+  }
   std::vector<char> are_finest;
   for (const auto& path : refined_.paths) are_finest.push_back(static_cast<char>(path.level == options_.levels));
   refined_.node_keys.resize(refined_.mesh.n_nodes());
@@ -210,7 +208,9 @@ std::vector<mesh::Descent> Refinement<dim>::follow(const FlagPoints& flag_points
   const auto before = std::move(refined_);
   calls_.push_back(static_cast<GlobalId>(flag_points.size()));
   refine(flag_points);
-  return mesh::descents(before, refined_);
+  std::vector<mesh::Descent> descents;
+  base::on_all_ranks(*comm_, [&] { descents = mesh::descents(before, refined_); });
+  return descents;
 }
 
 template <int dim>

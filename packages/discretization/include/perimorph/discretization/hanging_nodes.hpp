@@ -15,9 +15,9 @@ class HangingNodes {
     std::vector<int> parents;
   };
 
+  /// @param dofs of a topology without discontinuous elements at hanging nodes
   explicit HangingNodes(const DofMap<dim>& dofs);
 
-  bool is_empty() const { return ties_.empty(); }
   const std::vector<Tie>& ties() const { return ties_; }  ///< by ascending node
   std::vector<int> dofs() const;                          ///< of the hanging nodes, ascending
   /// The parents of a local node; empty if it does not hang.

@@ -21,8 +21,7 @@ Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& whole, double halo
                      const std::vector<double>& weights = {});
 
 /// Per local element, (n_elements): owned here, or around a node owned here, or around one that hangs on such a node.
-/// The rows of this rank's matrix come from
-/// these.
+/// The rows of this rank's matrix come from these.
 template <int dim>
 std::vector<char> active_elements(const Mesh<dim>& mesh);
 

@@ -48,7 +48,7 @@ class Refinement {
   /// An element that could be divided, by the ball around it.
   struct CoarseElement {
     base::Point<dim> center;
-    double radius, finest_size;
+    double radius, finest_radius;  ///< of it, and of those that it could be divided into, [length]
   };
 
   Teuchos::RCP<const base::Comm> comm_;
@@ -67,7 +67,7 @@ class Refinement {
   void find_cracks();
   void find_groups();
   void refine(const FlagPoints& flag_points);
-  void perturb();
+  void perturb();  // on rank 0
   std::vector<base::Point<dim>> newest_at(const FlagPoints& flag_points) const;
 };
 

@@ -17,8 +17,8 @@ class Rebalancing {
   /// The cost of each element by which the mesh is to be partitioned, by global id; on rank 0. Local.
   const std::vector<double>& element_costs() const { return element_costs_; }
 
-  /// The costs are those of another mesh from now on; as for the constructor. Local.
-  void follow(std::vector<double> element_costs) { element_costs_ = std::move(element_costs); }
+  /// Of another mesh, as for the constructor. Local.
+  void set_element_costs(std::vector<double> element_costs) { element_costs_ = std::move(element_costs); }
 
   /// Whether the ranks share the work so unevenly that another partition is worth its price; the costs are then those
   /// of this body. To be called when the topology has just been updated. Collective.
