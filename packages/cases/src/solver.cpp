@@ -70,6 +70,10 @@ void declare(const input::Section& decisive, Solver& solver, model::NumericalOpt
   section.parameter("Renewal Cost", numerical.solver.renewal_cost, at_least(0.),
                     "The preconditioner is renewed when, since its last set-up, solutions have taken this many more "
                     "iterations than they would have with a new one [-]: what a set-up costs, in iterations.");
+  section.parameter("Rows per Rank", numerical.solver.rows_per_rank, count(),
+                    "Coarse levels of multigrid are held by as few ranks as get at least this many rows each [-]: a "
+                    "small level costs "
+                    "messages, not work. 1 leaves all levels on all ranks.");
   section.parameter(
       "Largest Imbalance", solver.largest_imbalance, at_least(1.),
       "The mesh is partitioned among the ranks by the number of bonds, and again when the zone has grown and one rank "

@@ -39,6 +39,8 @@ class BlockMatrix {
   /// Ascending within a row: owned blocks, then copies.
   int column(std::size_t block) const { return columns_[block]; }
   const GhostExchange<cols>& ghosts() const { return ghosts_; }
+  /// What a product reads of this rank's blocks, [bytes].
+  double bytes() const { return static_cast<double>(values_.size() * sizeof(Number) + columns_.size() * sizeof(int)); }
 
   /// @param block from first(row) to end(row)
   Block block(int row, std::size_t block) const;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/profiler_mark.hpp"
 #include "with_groups.hpp"
 
 namespace perimorph::solvers {
@@ -183,7 +184,8 @@ void LinearSolver::build() {
   if (is_factorized()) {
     factorization_ = std::make_unique<Factorization>(whole_matrix_ ? whole_matrix_() : preconditioner_matrix_);
   } else {
-    multigrid_ = std::make_unique<Multigrid>(preconditioner_matrix_, near_null_space_, parameters_.muelu, cycle_);
+    multigrid_ = std::make_unique<Multigrid>(preconditioner_matrix_, near_null_space_, parameters_.muelu, cycle_,
+                                             parameters_.rows_per_rank);
   }
   fresh_rate_ = 0.;
 }
@@ -249,6 +251,7 @@ LinearSolver::Outcome LinearSolver::run_conjugate_gradients(const MultiVector& r
   list->set("Maximum Iterations", parameters_.max_iterations);
   list->set("Convergence Tolerance", relative_tolerance);
   Belos::BlockCGSolMgr<double, MultiVector, Operator> solver(problem, list);
+  const base::ProfilerMark mark(base::ProfilerMark::iterations, 0.);
   const bool converged = solver.solve() == Belos::Converged;
   return {converged, solver.getNumIters(), ""};
 }

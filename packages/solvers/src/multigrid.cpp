@@ -6,6 +6,7 @@
 #include <Tpetra_RowMatrixTransposer.hpp>
 #include <algorithm>
 
+#include "gathered_levels.hpp"
 #include "perimorph/base/errors.hpp"
 #include "single_precision_cycle.hpp"
 
@@ -154,10 +155,11 @@ NearNullSpace rigid_body_modes(const Matrix& matrix, const std::vector<base::Poi
 }
 
 Multigrid::Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space,
-                     const Teuchos::ParameterList& overrides, Cycle cycle)
+                     const Teuchos::ParameterList& overrides, Cycle cycle, int rows_per_rank)
     : hierarchy_(std::make_unique<Hierarchy>()),
       dim_(static_cast<int>(near_null_space.coordinates->getNumVectors())),
-      has_own_cycle_(cycle == Cycle::fast) {
+      has_own_cycle_(cycle == Cycle::fast),
+      rows_per_rank_(rows_per_rank) {
   PERIMORPH_ASSERT(!matrix.is_null() && near_null_space.modes->getLocalLength() == matrix->getNodeNumRows(),
                    "modes of {} rows", near_null_space.modes->getLocalLength());
   Teuchos::ParameterList list = default_parameters(cycle);
@@ -195,7 +197,7 @@ void Multigrid::refresh_finest(const std::vector<int>& nodes) {
 void Multigrid::make_operator() {
   operator_ = hierarchy_->preconditioner;
   if (!has_own_cycle_) return;
-  levels_ = levels_of(*hierarchy_->preconditioner);
+  levels_ = gather_small_levels(levels_of(*hierarchy_->preconditioner), rows_per_rank_);
   make_own_cycle();
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "block_matrix.hpp"
+#include "perimorph/base/profiler_mark.hpp"
 
 namespace perimorph::solvers {
 
@@ -59,6 +60,7 @@ class Smoother {
   }
 
   int n_rows() const { return matrix_.n_rows(); }
+  double bytes() const { return matrix_.bytes(); }
   Values make_vector() const {
     return Values(static_cast<std::size_t>(matrix_.ghosts().n_all()) * size + BlockMatrix<size, size, Number>::padding,
                   0.f);
@@ -125,6 +127,8 @@ class Transfer {
   explicit Transfer(const Matrix& matrix)
       : matrix_(matrix), gathered_(matrix_.ghosts().n_all() * cols + BlockMatrix<rows, cols>::padding) {}
 
+  double bytes() const { return matrix_.bytes(); }
+
   /// The operator times x, of which only the owned part counts.
   template <class Assign>
   void apply(const Values& x, Assign assign) const {
@@ -143,13 +147,13 @@ class Transfer {
 template <int size, int coarse, class Number = float>
 class Level {
  public:
-  explicit Level(const CycleLevel* levels, std::size_t n_levels)
-      : smoother_(*levels->matrix), b_(smoother_.n_rows() * size), x_(smoother_.make_vector()) {
+  Level(const CycleLevel* levels, std::size_t n_levels, int number = 0)
+      : number_(number), smoother_(*levels->matrix), b_(smoother_.n_rows() * size), x_(smoother_.make_vector()) {
     if (n_levels == 1) return;
     restriction_ = std::make_unique<Transfer<coarse, size>>(*levels->restriction);
     prolongation_ = std::make_unique<Transfer<size, coarse>>(*levels->prolongation);
     residual_.resize(b_.size());
-    below_ = std::make_unique<Level<coarse, coarse>>(levels + 1, n_levels - 1);
+    below_ = std::make_unique<Level<coarse, coarse>>(levels + 1, n_levels - 1, number + 1);
   }
 
   void refresh(const Matrix& matrix, const std::vector<int>& rows) { smoother_.refresh(matrix, rows); }
@@ -159,6 +163,7 @@ class Level {
 
   /// x after a cycle from zero.
   void solve() {
+    const auto mark = mark_visit(below_ == nullptr ? 2. * n_symmetric_sweeps - 0.5 : 2.);
     smoother_.start(b_, x_);
     if (below_ == nullptr) return solve_coarsest();
     smoother_.residual_after_start(x_, residual_);
@@ -168,6 +173,7 @@ class Level {
   /// x after another cycle.
   void improve() {
     if (below_ == nullptr) return;  // the coarsest level is solved well enough
+    const auto mark = mark_visit(3.);
     smoother_.update_ghosts(x_);
     smoother_.sweep_forward(b_, x_);
     smoother_.update_ghosts(x_);
@@ -176,11 +182,21 @@ class Level {
   }
 
  private:
+  int number_;  ///< 0 for the finest
   Smoother<size, Number> smoother_;
   std::unique_ptr<Transfer<coarse, size>> restriction_;
   std::unique_ptr<Transfer<size, coarse>> prolongation_;
   std::unique_ptr<Level<coarse, coarse>> below_;
   Values b_, x_, residual_;
+
+  static constexpr int n_symmetric_sweeps = 10;  ///< on the coarsest level
+
+  /// @param n_passes over the matrix
+  base::ProfilerMark mark_visit(double n_passes) const {
+    double bytes = n_passes * smoother_.bytes();
+    if (below_ != nullptr) bytes += restriction_->bytes() + prolongation_->bytes();
+    return {base::ProfilerMark::finest_level + number_, bytes};
+  }
 
   /// The coarse correction of x with its residual, and the sweep after it.
   void correct() {
@@ -194,7 +210,6 @@ class Level {
   }
 
   void solve_coarsest() {
-    constexpr int n_symmetric_sweeps = 10;
     for (int sweep = 0; sweep < n_symmetric_sweeps; ++sweep) {
       if (sweep > 0) {
         smoother_.sweep_forward(b_, x_);

@@ -29,11 +29,12 @@ class Multigrid : public testing::Test {
   CoupledBody body{hybrid()};
   Teuchos::RCP<solvers::Matrix> matrix = body.stiffness->matrix();
 
-  solvers::Multigrid make() const {
+  solvers::Multigrid make(int rows_per_rank = solvers::Multigrid::default_rows_per_rank) const {
     std::vector<Point2> coordinates;
     for (int n = 0; n < body.dofs->n_owned_nodes(); ++n)
       coordinates.push_back(body.mesh.coordinates[body.dofs->reference_node(n)]);
-    return {matrix, solvers::rigid_body_modes<2>(*matrix, coordinates), {}, solvers::Multigrid::Cycle::fast};
+    return {
+        matrix, solvers::rigid_body_modes<2>(*matrix, coordinates), {}, solvers::Multigrid::Cycle::fast, rows_per_rank};
   }
 
   /// The same on any number of ranks.
@@ -59,8 +60,12 @@ class Multigrid : public testing::Test {
   }
 };
 
-TEST_F(Multigrid, IsSymmetricAndPositiveUpToSinglePrecision) {
-  const auto multigrid = make();
+/// How few ranks hold the coarse levels: all of them, some, one.
+class GatheredMultigrid : public Multigrid, public testing::WithParamInterface<int> {};
+INSTANTIATE_TEST_SUITE_P(RowsPerRank, GatheredMultigrid, testing::Values(1, 60, 100000));
+
+TEST_P(GatheredMultigrid, IsSymmetricAndPositiveUpToSinglePrecision) {
+  const auto multigrid = make(GetParam());
   const auto& cycle = *multigrid.apply_inverse();
   for (const double one : {0.05, 0.4, 2.9}) {
     const auto x = wave(one), cycle_x = times(cycle, x);
@@ -73,8 +78,8 @@ TEST_F(Multigrid, IsSymmetricAndPositiveUpToSinglePrecision) {
   }
 }
 
-TEST_F(Multigrid, ReducesSmoothAndRoughErrorsAlike) {
-  const auto multigrid = make();
+TEST_P(GatheredMultigrid, ReducesSmoothAndRoughErrorsAlike) {
+  const auto multigrid = make(GetParam());
   for (const double frequency : {0.05, 0.4, 2.9}) {
     auto error = wave(frequency);
     const double before = dot(error, times(*matrix, error));

@@ -72,17 +72,17 @@ def check(case, settings=()):
     return done.stdout
 
 
-def run(case, output, ranks=1, settings=(), ends=(0,), is_enough=None):
+def run(case, output, ranks=1, settings=(), ends=(0,), is_enough=None, environment=None):
     """Runs a case as tools/run would, without building.
 
     settings: texts such as "Loading/Increments=1"; ends: the exit statuses that are no failure; is_enough: a run on one
-    rank is ended once it says so of the rows.
+    rank is ended once it says so of the rows; environment: more of its variables.
     """
     command = program(ranks, "run", case, settings) + ["--output", output, "--quiet", "--no-progress"]
     if is_enough:
         shutil.rmtree(output, ignore_errors=True)  # the rows of an earlier run would be taken for this one's
     # After an exit status other than 0 mpirun would wait a second.
-    environment = dict(os.environ, OMPI_MCA_odls_base_sigkill_timeout="0")
+    environment = dict(os.environ, OMPI_MCA_odls_base_sigkill_timeout="0", **(environment or {}))
     begin = time.monotonic()
     process = subprocess.Popen(command, env=environment)
     if is_enough:

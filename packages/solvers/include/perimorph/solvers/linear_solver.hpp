@@ -16,9 +16,10 @@ namespace perimorph::solvers {
 
 struct SolverParameters {
   int max_iterations = 500;
-  double renewal_cost = 12.;            ///< iterations more than with a new preconditioner, after which it is renewed
-  bool has_resorts = true;              ///< or what fails is not tried again in other ways
-  Teuchos::ParameterList belos, muelu;  ///< overrides
+  double renewal_cost = 12.;  ///< iterations more than with a new preconditioner, after which it is renewed
+  int rows_per_rank = Multigrid::default_rows_per_rank;  ///< at least, on coarse levels of multigrid
+  bool has_resorts = true;                               ///< or what fails is not tried again in other ways
+  Teuchos::ParameterList belos, muelu;                   ///< overrides
 };
 
 /// Unknowns that the preconditioner's matrix holds fast, and how they can move all the same: motions of groups that

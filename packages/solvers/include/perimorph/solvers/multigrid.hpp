@@ -35,9 +35,13 @@ class Multigrid {
   /// without coarse levels, which are rounding errors in a body that is all floating pieces.
   enum class Cycle { fast, robust, one_level };
 
-  /// Sets it up. @param overrides parameters of MueLu that replace or add to ours. Collective.
+  /// Coarse levels of our cycle are held by as few ranks as get so many rows each.
+  static constexpr int default_rows_per_rank = 500;
+
+  /// Sets it up. Collective.
+  /// @param overrides parameters of MueLu that replace or add to ours
   Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& near_null_space,
-            const Teuchos::ParameterList& overrides, Cycle cycle);
+            const Teuchos::ParameterList& overrides, Cycle cycle, int rows_per_rank = default_rows_per_rank);
   ~Multigrid();
 
   /// New values in the same matrix: keeps aggregates and prolongators ("RP" reuse), renews the rest. Not after
@@ -59,6 +63,7 @@ class Multigrid {
   std::unique_ptr<Hierarchy> hierarchy_;
   int dim_;
   bool has_own_cycle_;
+  int rows_per_rank_;
   std::vector<CycleLevel> levels_;  ///< of our own cycle
   Teuchos::RCP<SinglePrecisionCycle> own_cycle_;
   Teuchos::RCP<Operator> operator_;
