@@ -9,7 +9,7 @@ import numpy as np
 from case_file import write_case
 from cases import make_mesh, run
 from messages import fail
-from precision_runs import material, plane_constants, prescribed, write_body, write_rows
+from precision_runs import lattice, material, plane_constants, prescribed, write_body, write_rows
 
 G_C = 0.03  # small: strains stay below 1 %
 STEP = 0.01  # of K over sqrt(E G_c), an increment
@@ -78,14 +78,6 @@ def critical_displacement(points, direction, layers, ratio):
 
 
 # --- Bodies: nodes, elements of one kind, numbers of the nodes along the crack from its mouth to its tip ---
-
-
-def lattice(x):
-    """The quadrilaterals between the lines x = const. and y = const."""
-    nodes = np.column_stack([axis.ravel() for axis in np.meshgrid(x, x)])
-    n = len(x)
-    first = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
-    return nodes, np.column_stack([first, first + 1, first + n + 1, first + n])
 
 
 def squares(half_width, is_irregular=False, fine=FINE):

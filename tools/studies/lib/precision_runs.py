@@ -8,6 +8,14 @@ import numpy as np
 E, NU = 30000.0, (1.0 / 3.0, 1.0 / 4.0)  # in two and in three dimensions
 
 
+def lattice(x):
+    """The quadrilaterals between the lines x = const. and y = const."""
+    nodes = np.column_stack([axis.ravel() for axis in np.meshgrid(x, x)])
+    n = len(x)
+    first = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
+    return nodes, np.column_stack([first, first + 1, first + n + 1, first + n])
+
+
 def write_mesh(file, nodes, elements, groups):
     """A mesh of triangles, quadrilaterals or hexahedra, MSH 2.2, with groups of nodes.
 

@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 from cases import ROOT, TOOLS, check, make_mesh, run
+from messages import need
 from squares import POLICIES, cube, side_for, square
 from tables import print_table
 
@@ -276,6 +277,15 @@ def print_refinement(folder, scale):
                  "wall [s]", "/ fine", "MB per rank", "/ fine"], rows)
 
 
+def print_phase_field(folder, scale):
+    """The program beside a phase field."""
+    need("numpy", "netCDF4", "matplotlib")  # no other table needs them
+    import phase_field_runs
+
+    phase_field_runs.print_table_of_bodies(folder, scale)
+
+
 TABLES = {"iterations": print_iterations, "zone": print_zone, "ranks": print_ranks, "notch": print_notch,
           "examples": print_examples, "tolerance": print_tolerance,
-          "three_dimensions": print_three_dimensions, "windows": print_windows, "refinement": print_refinement}
+          "three_dimensions": print_three_dimensions, "windows": print_windows, "refinement": print_refinement,
+          "phase_field": print_phase_field}
