@@ -12,7 +12,8 @@ largest change of d is below --tolerance. The step of d may be over-relaxed [Far
 1 + h / (c L), as a crack on a mesh takes that much more of it [Bourdin, Francfort and Marigo 2008]; h is the mean edge.
 Elements are the mesh's, of first order, with 2 Gauss points per direction.
 
-FOLDER/history.csv gets a row for each increment, FOLDER/damage.npz the last d by node. Exit status 3: stopped by --seconds.
+FOLDER/history.csv gets a row for each increment, FOLDER/damage.npz the last d by node, and
+which nodes are on pre-cracks. Exit status 3: stopped by --seconds.
 """
 
 import argparse
@@ -39,6 +40,7 @@ from msh import edge_lengths, open_crack, read_mesh
 STOPPED_AT_A_LIMIT = 3  # exit status
 RESIDUAL_STIFFNESS = 1e-6
 MODELS = {"AT1": (8 / 3, lambda d: d), "AT2": (2.0, lambda d: d**2)}  # c, w(d)
+CRACKS = {"AT1": "both", "AT2": "split"}  # by which loads are nearest to fracture mechanics
 CELLS = {3: "triangle", 4: "quadrilateral", 8: "hexahedron"}
 TENSOR_ORDER = {3: [0, 1, 2], 4: [0, 1, 3, 2], 8: [0, 1, 3, 2, 4, 5, 7, 6]}  # of a cell's nodes, from gmsh's order
 
@@ -59,8 +61,8 @@ class Body:
             opened, parent = cells, np.arange(len(nodes))
         self.nodes, self.parent = nodes[parent], parent
         kind = ufl.Cell(CELLS[cells.shape[1]], geometric_dimension=self.dimension)
-        self.mesh = dolfinx.mesh.create_mesh(MPI.COMM_SELF, np.ascontiguousarray(opened[:, TENSOR_ORDER[cells.shape[1]]], dtype=np.int64), self.nodes,
-                                             ufl.Mesh(ufl.VectorElement("Lagrange", kind, 1)))
+        opened = np.ascontiguousarray(opened[:, TENSOR_ORDER[cells.shape[1]]], dtype=np.int64)
+        self.mesh = dolfinx.mesh.create_mesh(MPI.COMM_SELF, opened, self.nodes, ufl.Mesh(ufl.VectorElement("Lagrange", kind, 1)))
 
     def places(self, space):
         """For each node of the file its block of unknowns in a space of first order."""
@@ -323,7 +325,8 @@ class Run:
         return row
 
     def save_damage(self, file):
-        np.savez(file, nodes=self.body.nodes, damage=self.damage.d.x.array[self.places])
+        np.savez(file, nodes=self.body.nodes, damage=self.damage.d.x.array[self.places],
+                 is_pre_crack=np.isin(self.body.parent, self.body.crack_nodes))
 
 
 def conditions_of(case, dimension):
@@ -342,15 +345,17 @@ def arguments():
     parser.add_argument("--length", type=float, required=True, metavar="L")
     parser.add_argument("--split", choices=["none", "volumetric-deviatoric"], default="none",
                         help="of the energy that makes cracks; u always sees g(d) times all of it [Ambati et al. 2015]")
-    parser.add_argument("--crack", choices=["split", "damage", "both"], default="both",
-                        help="pre-cracks: nodes in two, d = 1 along them, or both (default)")
+    parser.add_argument("--crack", choices=["split", "damage", "both"],
+                        help="pre-cracks: nodes in two, d = 1 along them, or both; default: both for AT1, split for AT2")
     parser.add_argument("--relaxation", type=float, default=1.0, help="factor on the step of d (default 1)")
     parser.add_argument("--tolerance", type=float, default=1e-3, help="of d (default 1e-3)")
     parser.add_argument("--residual", type=float, default=1e-5, help="of u, over the reactions (default 1e-5)")
     parser.add_argument("--seconds", type=float, default=1e9, help="limit on the wall time")
     parser.add_argument("--drop", type=float, default=0.0, metavar="SHARE",
                         help="end once the elastic energy is below this share of its largest")
-    return parser.parse_args()
+    options = parser.parse_args()
+    options.crack = options.crack or CRACKS[options.model]
+    return options
 
 
 def main():

@@ -11,7 +11,7 @@ from cases import ROOT, make_mesh
 from precision_runs import lattice, write_mesh
 
 INPUTS = os.path.join(ROOT, "inputs")
-DEFAULT = 1 / 3  # characteristic length of ours, in elements
+DEFAULT, LENGTH_IN_3D = 1 / 3, 0.2  # characteristic length of ours, in elements
 HORIZONS = {2: 4.0, 3: 2.0}  # in elements, by dimension
 TIP, SIDE, WIDTH, HEIGHT, THICKNESS = 25.0, 100.0, 24.0, 48.0, 6.0
 
@@ -106,6 +106,8 @@ def block(folder, size=1.0, tip=WIDTH / 2, is_whole=False):
                    {"Fracture Energy": 0.1, "Poisson's Ratio": 0.25, "Elastic Model": "Three-Dimensional"},
                    {**pulled("bottom", "top", 0.0005), "z": {"Group": "end", "Component": "z"}}, 60,
                    lambda radius: {} if is_whole else {"front": {
-                       "Shape": "Cylinder", "Start": [tip, 0.0, 0.0], "End": [tip, 0.0, THICKNESS], "Inner Radius": radius, "Outer Radius": 2 * radius}},
-                   {"crack": {"Shape": "Polygon", "Points": [0.0, 0.0, 0.0, tip, 0.0, 0.0, tip, 0.0, THICKNESS, 0.0, 0.0, THICKNESS]}},
-                   0.2, dimension=3)
+                       "Shape": "Cylinder", "Start": [tip, 0.0, 0.0], "End": [tip, 0.0, THICKNESS], "Inner Radius": radius,
+                       "Outer Radius": 2 * radius}},
+                   {"crack": {"Shape": "Polygon",
+                              "Points": [0.0, 0.0, 0.0, tip, 0.0, 0.0, tip, 0.0, THICKNESS, 0.0, 0.0, THICKNESS]}},
+                   LENGTH_IN_3D, dimension=3)

@@ -56,7 +56,8 @@ def run_ours(case, increments, limit=math.inf, is_enough=lambda rows: False):
     output, end = os.path.splitext(case)[0] + "-ours", time.monotonic() + limit
     one = run(case, output, is_enough=lambda rows: time.monotonic() > end or is_enough(rows))
     is_through = len(one.history) == increments or is_enough(one.history)
-    return Outcome(one.history, is_through, one.wall, one.processor, one.memory, damaged_elements(output) if is_through else np.empty((0, 2)))
+    crack = damaged_elements(output) if is_through else np.empty((0, 2))
+    return Outcome(one.history, is_through, one.wall, one.processor, one.memory, crack)
 
 
 def run_theirs(case, model, length, limit=1e9, options=()):
@@ -72,7 +73,7 @@ def run_theirs(case, model, length, limit=1e9, options=()):
         sys.exit(f"{' '.join(command)}: ended with status {status}")
     field = np.load(os.path.join(folder, "damage.npz"))
     return Outcome(rows_of(folder), status == 0, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024,
-                   field["nodes"][field["damage"] > CRACKED["theirs"]])
+                   field["nodes"][(field["damage"] > CRACKED["theirs"]) & ~field["is_pre_crack"]])
 
 
 def compile_forms(case, model, length):
@@ -128,7 +129,7 @@ def draw_paths(outcomes, file):
         for (program, outcome), colour in zip(programs.items(), COLOURS):
             panel.plot(*outcome.crack[:, :2].T, ".", markersize=2.5, color=colour, label=program)
         panel.set_title(body, fontsize=10)
-        panel.set_aspect("equal")
+        panel.set_aspect("equal", adjustable="datalim")
         panel.tick_params(labelsize=7)
     figure.legend(*panels[0][0].get_legend_handles_labels(), loc="lower center", ncol=3, markerscale=4, frameon=False)
     figure.subplots_adjust(left=0.04, right=0.99, top=0.95, bottom=0.14)
@@ -143,7 +144,8 @@ def print_table_of_bodies(folder, scale):
              bodies.block: fracture_mechanics(folder, bodies.block, bodies.WIDTH / 2, solid, bodies.THICKNESS, 0.1)[0]}
     rows, outcomes = [], {}
     for name, body, size, options in (
-            ("edge crack, squares", bodies.edge_crack, plane, {}), ("edge crack, irregular", bodies.edge_crack, plane, {"is_irregular": True}),
+            ("edge crack, squares", bodies.edge_crack, plane, {}),
+            ("edge crack, irregular", bodies.edge_crack, plane, {"is_irregular": True}),
             ("double notch", bodies.double_notch, 2 * plane, {}), ("notch and hole", bodies.hole, plane / 2, {}),
             ("block", bodies.block, solid, {})):
         case = body(folder, size, **options)
@@ -156,7 +158,8 @@ def print_table_of_bodies(folder, scale):
             theirs = outcomes[name][model] = run_theirs(case, model, LENGTH * size, LIMIT)
             rows.append(cells("", model, theirs, ours, exact.get(body), size))
     print_table(f"Perimorph and a phase field on FEniCSx (tools/studies/lib/phase_field.py, length {LENGTH:g} elements, over-relaxed "
-                f"by {RELAXATION}), the same meshes and increments, one core. Path: mean distance from ours, in elements; {PATHS} shows them.",
+                f"by {RELAXATION}), the same meshes and increments, one core. Path: mean distance from ours, in elements; {PATHS} shows "
+                "them.",
                 ["body", "program", "largest force [N]", "/ fracture mechanics", "/ ours", "path", "solves", "processor [s]", "/ ours",
                  "wall [s]", "MB", ""], rows)
     os.makedirs(os.path.dirname(PATHS), exist_ok=True)
