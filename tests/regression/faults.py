@@ -16,6 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 FILE_FAULTS = sys.argv.pop(3)
 import fixture
 import in_3d
+import refinement
 from fixture import EVERY, changed, settings
 from whole_run import EXPORTS, WholeRun
 
@@ -36,7 +37,7 @@ class Faults:
                        "LD_PRELOAD": FILE_FAULTS}
         command = self.command(*EVERY, *self.OPTIONS, *options)
         preload = ["env", *(f"{name}={value}" for name, value in environment.items())]  # not mpirun itself
-        run = subprocess.run([*fixture.launch(ranks), *preload, *command], capture_output=True, text=True, timeout=120)
+        run = subprocess.run([*fixture.launch(ranks), *preload, *command], capture_output=True, text=True, timeout=250)
         return run.returncode, int(count.read_text()) if count.exists() else None
 
     def prepare(self, before):
@@ -57,7 +58,7 @@ class Faults:
 
     def continued(self, *options):
         return subprocess.run(self.command(*EVERY, *self.OPTIONS, *options, "--restart", ranks=self.RANKS), capture_output=True,
-                              text=True, timeout=120)
+                              text=True, timeout=250)
 
     def test_a_run_that_is_killed_goes_on(self):
         expected = self.whole(*self.OPTIONS, ranks=self.RANKS)
@@ -130,6 +131,17 @@ class Block(Faults, WholeRun):
         "Loading/Increments": 3,
     })
     MESH = in_3d.mesh()
+
+
+class Refined(Faults, WholeRun):
+    """With a mesh that is refined on the way."""
+
+    CASE = refinement.SHORT
+    MESH = refinement.Refined.MESH
+
+
+class RefinedOnTwo(Refined):
+    RANKS = 2
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 """A mesh that is refined around a crack, and follows it.
 
     refinement.py PERIMORPH MPIEXEC
+
+PERIMORPH_KILLS: see whole_run.py.
 """
 
 import itertools
@@ -12,6 +14,7 @@ import netCDF4
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import whole_run
 from fixture import CASE, EVERY, HALF, GrowingCrack, case_file, changed, msh, settings
 
 SIZE = 4.0  # of the elements in the file: four finest ones
@@ -168,6 +171,21 @@ class Continued(Refined):
         self.run_until(5, *cut)
         self.run_until(self.END, *cut, "--restart")
         self.assert_same(self.outcome(), whole)
+
+
+# Refined in a few increments, in the second and the third, with all that a run can write.
+SHORT = changed(Refined.CASE, {
+    "Output": {"Crack": True, "Bonds": [2, 3], "Probes": {"ahead": {"Points": [14.5, 24.5, 40, 24.5], "Divisions": 4}}},
+    "Boundary Conditions/Displacements/pull down/Rate": -0.35, "Boundary Conditions/Displacements/pull up/Rate": 0.35,
+    "Loading/Increments": 3})
+
+
+class Killed(whole_run.Killed, whole_run.WholeRun):
+    """At moments within refinements, too."""
+
+    MESH = Refined.MESH
+    CASE = SHORT
+    RANKS = [1, 2]
 
 
 class Half(Refined):

@@ -2,22 +2,21 @@
 
     restart.py PERIMORPH MPIEXEC
 
-PERIMORPH_KILLS is how often the test with SIGKILL kills its run; 3 if it is not set.
+PERIMORPH_KILLS: see whole_run.py.
 """
 
 import os
 import pathlib
-import random
 import resource
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import whole_run
 from fixture import ENDLESS, EVERY, INCREMENTS, N, GrowingCrack, changed, plate_mesh, settings
 
 
@@ -230,29 +229,6 @@ class Ended(GrowingCrack):
         self.assertIn("after increment 13", run.stdout)
         self.assertEqual(self.checkpoints()[-1], "checkpoint-000016.h5")
 
-    def test_killed_at_any_moment_it_loses_and_doubles_nothing(self):
-        kills = int(os.environ.get("PERIMORPH_KILLS", 3))
-        seed = random.randrange(10**6)
-        chance = random.Random(seed)
-        whole = self.uninterrupted()
-        begin = time.monotonic()
-        self.assertEqual(self.start(*EVERY).wait(timeout=60), 0)
-        duration = time.monotonic() - begin
-        with self.subTest(seed=seed):
-            for kill in range(kills):
-                options = ["--restart"] if kill % 8 else []  # now and then from the beginning
-                run = self.start(*EVERY, *options)
-                time.sleep(chance.uniform(0.2, 1) * duration)
-                run.kill()
-                run.wait()
-                resumed = self.start(*EVERY, "--restart", "--set", f"Loading/Increments={chance.randint(10, INCREMENTS)}")
-                self.assertEqual(resumed.wait(timeout=60), 0, resumed.stderr.read())
-                found = self.rows()
-                self.assertEqual(found, whole[0][: len(found)])
-                self.assertEqual(self.fields()[0], whole[1][: len(found)])
-            self.run_until(INCREMENTS, *EVERY, "--restart")
-            self.assert_same(self.outcome(), whole)
-
     def test_files_that_may_not_grow_end_it_in_order_as_a_full_disk_does(self):
         # For who is not root. The first part of the series reaches 100,000 bytes in increment 7, checkpoints have 56,000.
         # Open MPI itself would need larger files: for its shared memory, unless it does without.
@@ -289,6 +265,10 @@ class Ended(GrowingCrack):
                 subprocess.run(["mount", "-o", "remount,size=4m", disk], check=True)
                 self.run_until(INCREMENTS, *EVERY, "--restart")
                 self.assert_same(self.outcome(), whole)
+
+
+class Killed(whole_run.Killed, whole_run.WholeRun):
+    pass
 
 
 if __name__ == "__main__":

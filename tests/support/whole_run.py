@@ -1,13 +1,22 @@
-"""The plate with a growing crack, with all that a run can write, and comparisons of all of it to the last bit."""
+"""The plate with a growing crack, with all that a run can write, and comparisons of all of it to the last bit.
 
+PERIMORPH_KILLS is how often tests with SIGKILL kill their run, on each number of ranks; 3 if it is not set.
+"""
+
+import contextlib
 import csv
+import os
+import pathlib
+import random
 import re
+import signal
 import subprocess
+import time
 
 import netCDF4
 import numpy
 
-from fixture import EVERY, GrowingCrack, changed, text_of
+from fixture import EVERY, GrowingCrack, changed, settings, text_of
 
 EXPORTS = {"Crack": True, "Bonds": [2, 13], "Probes": {"ahead": {"Points": [7.25, 6.25, 12, 6.25], "Divisions": 4}}}
 
@@ -50,7 +59,7 @@ class WholeRun(GrowingCrack):
     def whole(self, *options, ranks=1):
         """What comes out of a run that nothing disturbs."""
         output = self.folder / "whole"
-        run = subprocess.run(self.command(*EVERY, *options, ranks=ranks, output=output), capture_output=True, text=True, timeout=100)
+        run = subprocess.run(self.command(*EVERY, *options, ranks=ranks, output=output), capture_output=True, text=True, timeout=250)
         self.assertEqual(run.returncode, 0, run.stderr)
         return self.everything(output)
 
@@ -68,3 +77,54 @@ class WholeRun(GrowingCrack):
             if wrong or one.keys() != other.keys():
                 return f"step {time}: {wrong}"
         return ""
+
+    def beginning(self, expected):
+        """What a whole run had left when it had come as far as this one."""
+        rows = expected["history.csv"][:len(without_seconds(self.output / "history.csv"))]
+        last = int(rows[-1]["increment"])
+
+        def until_then(name, content):
+            if name.endswith(".vtp"):
+                return content
+            head, *lines = content.splitlines(keepends=True)
+            return b"".join([head, *(line for line in lines if int(line.split(b",")[0]) <= last)])
+
+        to_come = {f"bonds-{bonds:06d}.vtp" for bonds in self.CASE["Output"]["Bonds"] if bonds > last}
+        files = {name: until_then(name, expected[name]) for name in expected.keys() - to_come - {"history.csv", "steps"}}
+        return files | {"history.csv": rows, "steps": [step for step in expected["steps"] if step[0] <= last]}
+
+
+def kill(run, ranks, chance):
+    """Kills a run that may be over; on more than one rank one of them alone."""
+    if ranks > 1 and run.poll() is None:
+        of_mpirun = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        with contextlib.suppress(ProcessLookupError, IndexError):  # over by now, or not begun
+            os.kill(int(chance.choice(of_mpirun)), signal.SIGKILL)
+            run.wait(timeout=100)
+    run.kill()
+    run.wait()
+
+
+class Killed:
+    """With a whole run."""
+
+    RANKS = [1]
+
+    def test_killed_at_any_moment_it_loses_and_doubles_nothing(self):
+        end, seed = self.CASE["Loading"]["Increments"], random.randrange(10**6)
+        chance = random.Random(seed)
+        for ranks in self.RANKS:
+            expected = self.whole(ranks=ranks)
+            begin = time.monotonic()
+            self.assertEqual(self.start(*EVERY, ranks=ranks).wait(timeout=250), 0)
+            duration = time.monotonic() - begin
+            for n in range(int(os.environ.get("PERIMORPH_KILLS", 3))):
+                with self.subTest(seed=seed, ranks=ranks, kill=n):
+                    run = self.start(*EVERY, *(["--restart"] if n % 8 else []), ranks=ranks)  # now and then from the beginning
+                    time.sleep(chance.uniform(0.2, 1) * duration)
+                    kill(run, ranks, chance)
+                    resumed = self.start(*EVERY, "--restart", *settings(f"Loading/Increments={chance.randint(end // 2, end)}"), ranks=ranks)
+                    self.assertEqual(resumed.wait(timeout=250), 0, resumed.stderr.read())
+                    self.assertEqual(self.difference(self.everything(), self.beginning(expected)), "")
+            self.run_until(end, *EVERY, "--restart", ranks=ranks)
+            self.assertEqual(self.difference(self.everything(), expected), "")
