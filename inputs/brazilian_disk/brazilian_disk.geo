@@ -2,7 +2,7 @@
 // Quadrilaterals of size dx, irregular, so that cracks may bend; around the slit's tips regular patches of squares
 // of size tip, since the size of the elements there decides at which load the first bond breaks. The slit itself is in the
 // case file: here it is a line along which edges of elements lie. Recombined quadrilaterals come out smaller than asked for.
-dx = 0.5;
+DefineConstant[dx = 0.5];  // brazilian_disk_coarse.geo sets another
 size = 1.15 * dx;
 tip = dx;
 

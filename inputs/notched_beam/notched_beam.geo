@@ -1,7 +1,7 @@
 // Notched beam under four-point bending: 200 x 50, span 180, notch 10 deep and 2 wide from the bottom at mid-span.
 // Lengths in mm. Quadrilaterals of size dx, irregular; around the notch's tip a regular patch of 0.8 dx, since the size of the
 // elements there decides at which load the first bond breaks. Recombined quadrilaterals come out smaller than asked for.
-dx = 0.5;
+DefineConstant[dx = 0.5];  // notched_beam_coarse.geo sets another, and n
 size = 1.08 * dx;
 tip = 0.8 * dx;
 
@@ -20,7 +20,9 @@ Point(10) = {0, 50, 0, size};
 // The patch: columns beside the notch (left, over it, right), rows beside and above its tip.
 x() = {95, 99, 101, 105};
 y() = {6, 10, 14};
-n() = {10, 4, 10};   // columns of elements; full-quad recombination wants even numbers
+If (!Exists(n))
+  n() = {10, 4, 10};  // columns of elements; full-quad recombination wants even numbers
+EndIf
 For j In {0:2}
   For i In {0:3}
     Point(100 + 10 * j + i) = {x(i), y(j), 0, tip};
@@ -37,7 +39,7 @@ EndFor
 For j In {0:1}
   For i In {0:3}
     Line(200 + 10 * j + i) = {100 + 10 * j + i, 110 + 10 * j + i};
-    Transfinite Curve{200 + 10 * j + i} = Round((y(j + 1) - y(j)) / tip) + 1;
+    Transfinite Curve{200 + 10 * j + i} = 2 * Round((y(j + 1) - y(j)) / tip / 2) + 1;
   EndFor
 EndFor
 For j In {0:1}

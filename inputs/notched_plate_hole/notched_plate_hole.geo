@@ -2,8 +2,8 @@
 // axis at height h, 10 long to a round tip of radius 0.5. Lengths in mm.
 // Quadrilaterals of size dx, irregular, so that cracks may bend. The elements at the round tip decide at which load the
 // first bond breaks. Recombined quadrilaterals come out smaller than asked for.
-DefineConstant[h = 10];  // notched_plate_hole_h10.geo and notched_plate_hole_h15.geo set it
-dx = 0.25;
+// The files that include this one set h, those of coarse meshes also dx.
+DefineConstant[h = 10, dx = 0.25];
 size = 1.08 * dx;
 
 length = 10;

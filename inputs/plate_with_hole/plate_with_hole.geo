@@ -1,7 +1,7 @@
 // Plate with a central hole: 200 x 100, radius 10, origin at the hole's centre. Lengths in mm.
 // Quadrilaterals of size dx, irregular. The lines y = 0, x = 0 and x = 30, along which results are compared, are edges of
 // elements. Recombined quadrilaterals come out smaller than asked for.
-dx = 1.5;
+DefineConstant[dx = 1.5];  // plate_with_hole_coarse.geo sets another
 size = 1.12 * dx;
 radius = 10;
 

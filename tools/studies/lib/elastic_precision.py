@@ -14,6 +14,7 @@ from precision_runs import material, plane_constants, prescribed, write_body, wr
 
 HALF, RADIUS = 75.0, 15.0
 STRESS = 300.0
+SMALLER = 1.08  # recombined quadrilaterals come out smaller than asked for by this
 
 GEOMETRY = """
 size = {size};
@@ -60,10 +61,10 @@ def kirsch(points, layers):
     return STRESS * RADIUS / (8 * mu) * np.column_stack([x, y])
 
 
-def plate(stem, size, layers):
-    """Meshes the body; returns the mean edge in the plane, the boundary's nodes and their positions."""
+def meshed(stem, size, half=HALF):
+    """Nodes and quadrilaterals of the body."""
     with open(stem + ".geo", "w") as out:
-        out.write(GEOMETRY.format(size=size, half=HALF, radius=RADIUS))
+        out.write(GEOMETRY.format(size=size, half=half, radius=RADIUS))
     made = subprocess.run(["gmsh", "-2", "-v", "0", "-format", "msh22", stem + ".geo", "-o", stem + ".msh"])
     if made.returncode != 0:
         fail(f"gmsh could not mesh {stem}.geo")
@@ -75,8 +76,12 @@ def plate(stem, size, layers):
     quads = np.array([line.split()[-4:] for line in lines[first:lines.index("$EndElements")] if line.split()[1] == "3"],
                      dtype=int) - 1
     used, quads = np.unique(quads, return_inverse=True)  # not the hole's centre
-    nodes, quads = all_nodes[used], quads.reshape(-1, 4)
-    boundary = np.flatnonzero(np.abs(nodes).max(axis=1) > HALF * (1 - 1e-9))
+    return all_nodes[used], quads.reshape(-1, 4)
+
+
+def written(stem, nodes, quads, layers=0):
+    """Writes the body's mesh; returns the mean edge in the plane, the boundary's nodes and their positions."""
+    boundary = np.flatnonzero(np.abs(nodes).max(axis=1) > np.abs(nodes).max() * (1 - 1e-9))
     corners = nodes[quads]
     dx = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean()
     write_body(stem + ".msh", nodes, quads, boundary, layers, dx)
@@ -114,7 +119,8 @@ def measure(layers, sizes, repeat, folder):
     rows = []
     for size in sorted(sizes, reverse=True):
         stem = os.path.join(folder, f"plate-{size:g}")
-        dx, boundary, positions = plate(stem, size * 1.08, layers)  # recombined quadrilaterals come out smaller than asked for
+        body = meshed(stem, SMALLER * size)
+        dx, boundary, positions = written(stem, *body, layers)
         for name, variant in VARIANTS.items():
             write_case(stem + ".xml", case_of(stem + ".msh", dx, boundary, positions, layers, variant))
             fastest = min((run(stem + ".xml", stem) for _ in range(repeat)), key=lambda one: one.processor)

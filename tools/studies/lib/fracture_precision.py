@@ -40,6 +40,7 @@ def slab(length, horizon, **changes):
             "zone": 1.0 + 2.0 / horizon, **changes}
 
 PERTURBATION = 0.25  # of the edges
+LEVELS = 2  # of refinement, from coarse meshes
 
 STUDIES = {2: {
     "resistance": [{"l": l, "horizon": horizon_for(l), "discontinuous": discontinuous, "stiffness": stiffness,
@@ -49,6 +50,8 @@ STUDIES = {2: {
     "mesh": [{"l": l, "horizon": horizon_for(l), "mesh": "irregular"} for l in LENGTHS]
             + [{"mesh": "disc", "direction": direction, "half_width": 40.0} for direction in (0, 15, 30, 45)],
     "perturbation": [{"mesh": "perturbed disc", "direction": direction, "half_width": 40.0} for direction in (0, 15, 30, 45)],
+    "refinement": [{"l": l, "horizon": horizon_for(l), "mesh": perturbed + size + "squares"} for l in (0.2, 1 / 3)
+                   for perturbed in ("", "perturbed ") for size in ("", "coarse ")],
     "kind": [{"mesh": mesh} for mesh in ("triangles", "gmsh", "gmsh triangles")],
     "points": [{"l": l, "horizon": horizon_for(l), "points": 3, "calibration": "Analytic"} for l in LENGTHS],
     "rule": [{"fraction": 0.3}],
@@ -94,6 +97,14 @@ def squares(half_width, is_irregular=False, fine=FINE):
         moved[crack] = False
         nodes[moved] += np.random.RandomState(1).uniform(-0.25, 0.25, (np.count_nonzero(moved), 2))
     return nodes, quads, crack
+
+
+def coarse_squares(half_width):
+    """A square body of equal elements that become those of 1 when they are refined."""
+    size = 2**LEVELS
+    count = round(half_width / size)
+    nodes, quads = lattice(size * np.arange(-count, count + 1.0))
+    return nodes, quads, np.flatnonzero((nodes[:, 1] == 0) & (nodes[:, 0] <= 0))
 
 
 def triangles(half_width):
@@ -166,6 +177,8 @@ def body_of(setting, folder):
         return disc(half_width, np.radians(setting["direction"]))
     if mesh.startswith("gmsh"):
         return gmshs_own(half_width, folder, mesh == "gmsh triangles")
+    if mesh.endswith("coarse squares"):
+        return coarse_squares(half_width)
     if mesh == "triangles":
         return triangles(half_width)
     return squares(half_width, mesh == "irregular", FINE_IN_SLAB if setting["layers"] else FINE)
@@ -195,7 +208,8 @@ def case_of(folder, setting):
     return {
         "Title": "A crack under the displacement of mode I on the outer boundary",
         "Dimension": 3 if layers else 2,
-        "Mesh": {"File": "crack.msh", "Perturbation": PERTURBATION if setting["mesh"].startswith("perturbed") else 0.0},
+        "Mesh": {"File": "crack.msh", "Perturbation": PERTURBATION if setting["mesh"].startswith("perturbed") else 0.0,
+                 "Refinement": {"Levels": LEVELS if "coarse" in setting["mesh"] else 0}},
         "Material": {**material(layers, setting["ratio"]), "Fracture Energy": G_C, "Calibration": setting["calibration"]},
         "Peridynamics": {"Horizon": horizon, "Characteristic Length": setting["l"],
                          "Points per Direction": setting["points"]},

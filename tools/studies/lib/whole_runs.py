@@ -1,5 +1,6 @@
 """Whole runs of the program, for tools/studies/benchmark: what their tables are made of."""
 
+import collections
 import glob
 import os
 import re
@@ -9,7 +10,10 @@ import xml.etree.ElementTree as ElementTree
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
+import numpy as np
+
 from cases import ROOT, TOOLS, check, make_mesh, run
+from fields import distances_between_paths, last_damage
 from messages import need
 from squares import POLICIES, cube, side_for, square
 from tables import print_table
@@ -38,10 +42,10 @@ def two_at_once(case, folder):
                    key=lambda one: one.solving)
 
 
-def fastest(run_of, choices):
-    """For each choice the one of three runs that set up and solved fastest. Choices take turns: a machine's pace changes."""
-    rounds = [[run_of(choice) for choice in choices] for _ in range(3)]
-    return [min(runs, key=lambda one: one.solving) for runs in zip(*rounds)]
+def fastest(run_of, choices, rounds=3):
+    """For each choice the one of some runs that set up and solved fastest. Choices take turns: a machine's pace changes."""
+    found = [[run_of(choice) for choice in choices] for _ in range(rounds)]
+    return [min(runs, key=lambda one: one.solving) for runs in zip(*found)]
 
 
 def iterations(last, before):
@@ -252,29 +256,79 @@ def print_windows(folder, scale):
                  "/ Off", "wall [s]", "/ Off"], rows)
 
 
+FromCoarse = collections.namedtuple("FromCoarse", "case settings force")  # force: a column of history.csv
+
+
+def coarse(name, levels, force, *settings, stem=None):
+    """An example from its coarse mesh."""
+    case = glob.glob(os.path.join(ROOT, "inputs", "*", name + ".xml"))[0]
+    return FromCoarse(case, [f"Mesh/File={stem or name}_coarse.geo", f"Mesh/Refinement/Levels={levels}", *settings], force)
+
+
+COARSE_DOUBLE_NOTCH = coarse("double_edge_notched_plate", 2, "reaction_top_y", "Loading/Increments=24")
+MARGINS = {"fine everywhere": "Mesh/Refinement/Margin=100000", "refined": "Mesh/Refinement/Margin=3"}
+COARSE_ROOTS = [coarse("notched_beam", 2, "reaction_top_left_y",
+                       "Mesh/Refinement/Groups={bottom_left, bottom_right, top_left, top_right}"),
+                *(coarse(f"notched_plate_hole_h{h}", 1, "reaction_top_y") for h in (10, 15)),
+                coarse("brazilian_disk", 2, "reaction_top_y", "Mesh/Refinement/Groups={top, bottom}")]
+
+
+def forces_before_the_break(one, example):
+    return np.array([float(row[example.force]) for row in one.history if row["broken_bonds"] == "0"])
+
+
+def damage_at_the_end(output, one):
+    """At the last increment, or where the run was stopped within one."""
+    return last_damage(os.path.join(output, "unfinished") if one.status else output)
+
+
+def beside_fine(one, fine, what):
+    return f"{what(one):.1f}", ratio(what(one), what(fine))
+
+
+def refined_rows(folder, example, solves, ranks, rounds):
+    """An example on both meshes, fine everywhere and refined, up to an increment with so many damage iterations."""
+    name = os.path.splitext(os.path.basename(example.case))[0]
+    folders = {mesh: os.path.join(folder, mesh.replace(" ", "-")) for mesh in MARGINS}
+    runs = fastest(lambda mesh: measured(example.case, folders[mesh], ranks, ends=(0, STOPPED_AT_A_LIMIT), settings=[
+        *example.settings, MARGINS[mesh], f"Loading/Maximum Damage Iterations={solves}"]), MARGINS, rounds)
+    paths = [damage_at_the_end(os.path.join(folders[mesh], f"{name}-{ranks}"), one) for mesh, one in zip(MARGINS, runs)]
+    fine, fine_forces, fine_path = runs[0], forces_before_the_break(runs[0], example), paths[0]
+    for mesh, one, path in zip(MARGINS, runs, paths):
+        forces = forces_before_the_break(one, example)
+        common = min(len(forces), len(fine_forces))
+        differ = np.abs(forces[:common] - fine_forces[:common]).max() / np.abs(fine_forces).max()
+        gaps = distances_between_paths(path, fine_path)
+        yield [name, mesh, one.history[0]["unknowns"], one.history[-1]["unknowns"], str(len(forces) + 1), f"{forces[-1]:.6g}",
+               f"{100 * differ:.3f} %", one.history[-1]["increment"] + (", then stopped" if one.status else ""),
+               str(np.count_nonzero(path.values)), f"{gaps.mean():.2f}, {gaps.max():.1f}" if gaps.size else "",
+               *beside_fine(one, fine, lambda run: run.wall), *beside_fine(one, fine, lambda run: run.processor),
+               *beside_fine(one, fine, lambda run: run.memory)]
+
+
+def print_refined(title, rows):
+    print_table(title, ["case", "mesh", "unknowns, first", "last", "first break in", "force before it", "forces differ by", "increments done",
+                        "damaged elements", "apart in the mean, at most [elements]", "wall [s]", "/ fine", "processor [s]", "/ fine",
+                        "MB per rank", "/ fine"], rows)
+
+
 def print_refinement(folder, scale):
     """What it saves that only the zone is fine, against meshes that are as fine everywhere."""
-    margins = {"fine everywhere": "Mesh/Refinement/Margin=100000", "refined": "Mesh/Refinement/Margin=3"}
-    block = os.path.join(ROOT, "inputs", "single_edge_block", "single_edge_block_fine.xml")
-    cases = [(DOUBLE_NOTCH, ["Loading/Increments=24", *COARSE_NOTCH], 1000),
-             (block, ["Mesh/File=single_edge_block_coarse.geo", "Mesh/Refinement/Levels=2"], 200)]
-    rows = []
-    for case, settings, solves in cases:
-        limit = f"Loading/Maximum Damage Iterations={max(1, round(scale * solves))}"
-        runs = fastest(lambda mesh: measured(case, os.path.join(folder, mesh.replace(" ", "-")), 2, ends=(0, STOPPED_AT_A_LIMIT),
-                                             settings=[*settings, margins[mesh], limit]), margins)
-        fine, top = runs[0], lambda row: float(row["reaction_top_y"])
-        for mesh, one in zip(margins, runs):
-            whole = [row for row in one.history if row["broken_bonds"] == "0"]
-            last = one.history[-1]
-            rows.append([os.path.splitext(os.path.basename(case))[0], mesh, one.history[0]["unknowns"], last["unknowns"],
-                         str(len(whole) + 1), f"{top(whole[-1]):.6g}",
-                         f"{max(map(top, one.history)) / max(map(top, fine.history)):.5f}", last["damaged_elements"],
-                         f"{one.wall:.1f}", ratio(one.wall, fine.wall), f"{one.memory:.0f}", ratio(one.memory, fine.memory)])
-    print_table("From elements four times as large, refined where the zone is and as fine everywhere, 2 ranks; the fastest of three runs. Targets: "
-                "0.5 (double notch) and 0.4 (block) of the time, 0.35 of the block's memory; forces within 0.1 % before the jump.",
-                ["case", "mesh", "unknowns, first", "last", "first break in", "reaction before", "peak / fine", "damaged elements",
-                 "wall [s]", "/ fine", "MB per rank", "/ fine"], rows)
+    cases = [(COARSE_DOUBLE_NOTCH, 1000),
+             (coarse("single_edge_block_fine", 2, "reaction_top_y", stem="single_edge_block"), 200)]
+    print_refined("From elements four times as large, refined where the zone is and as fine everywhere, 2 ranks; the fastest of three runs. Targets: "
+                  "0.5 (double notch) and 0.4 (block) of the time, 0.35 of the block's memory; forces within 0.1 % before the jump.",
+                  [row for example, solves in cases
+                   for row in refined_rows(folder, example, max(1, round(scale * solves)), ranks=2, rounds=3)])
+
+
+def print_coarse_roots(folder, scale):
+    """The other examples from coarse meshes: whether refined ones break as those that are as fine everywhere."""
+    print_refined("From elements four times (beam, disk) and twice (plates) as large, refined where the zone is and as fine everywhere, 1 rank, "
+                  "one run each. Targets: the same step of the first break, forces within 0.1 % before it, damaged elements within one "
+                  "of the other run's in the mean.",
+                  [row for example in COARSE_ROOTS
+                   for row in refined_rows(folder, example, max(1, round(scale * 20000)), ranks=1, rounds=1)])
 
 
 def print_phase_field(folder, scale):
@@ -289,3 +343,4 @@ TABLES = {"iterations": print_iterations, "zone": print_zone, "ranks": print_ran
           "examples": print_examples, "tolerance": print_tolerance,
           "three_dimensions": print_three_dimensions, "windows": print_windows, "refinement": print_refinement,
           "phase_field": print_phase_field}
+          "coarse_roots": print_coarse_roots}
