@@ -90,20 +90,20 @@ def msh(groups, nodes, elements):
                      + section("Nodes", [" ".join(map(str, node)) for node in nodes]) + section("Elements", lines) + [""])
 
 
-def plate_mesh(columns=N, has_stiff=False, clamp=None):
+def plate_mesh(columns=N, rows=N, has_stiff=False, clamp=None):
     """Block "body", the right edge "right", and the two left corners "lower" and "upper"; every third column in a block
     "stiff" if there is one; the nodes of one column on the lower and the upper edge as "clamp" if that is said."""
     node = lambda i, j: j * (columns + 1) + i + 1
-    nodes = [(node(i, j), i, j, 0) for j in range(N + 1) for i in range(columns + 1)]
-    elements = [(15, 1, [node(0, 0)]), (15, 2, [node(0, N)])]
-    elements += [(1, 3, [node(columns, j), node(columns, j + 1)]) for j in range(N)]
+    nodes = [(node(i, j), i, j, 0) for j in range(rows + 1) for i in range(columns + 1)]
+    elements = [(15, 1, [node(0, 0)]), (15, 2, [node(0, rows)])]
+    elements += [(1, 3, [node(columns, j), node(columns, j + 1)]) for j in range(rows)]
     block = lambda i, j: 5 if has_stiff and i % 3 == 0 else 4
     elements += [(3, block(i, j), [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)])
-                 for j in range(N) for i in range(columns)]
+                 for j in range(rows) for i in range(columns)]
     names = ['0 1 "lower"', '0 2 "upper"', '1 3 "right"', '2 4 "body"'] + ['2 5 "stiff"'] * has_stiff
     if clamp is not None:
         names.append('0 6 "clamp"')
-        elements += [(15, 6, [node(clamp, j)]) for j in [0, N]]
+        elements += [(15, 6, [node(clamp, j)]) for j in [0, rows]]
     return msh(names, nodes, elements)
 
 
