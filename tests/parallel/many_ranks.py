@@ -30,7 +30,7 @@ SECONDS = 30  # until nothing is left of a run that ends: a rank may have to fin
 
 def time_limit(ranks):
     """[s] of a run. Of each rank the start alone takes the better part of a second."""
-    return 120 + 20 * ranks
+    return 300 + 40 * ranks
 
 
 class OnManyRanks(GrowingCrack):
@@ -87,7 +87,7 @@ class Bonds:
                 self.assert_as_alone()
 
     def test_the_same_break_where_each_part_of_a_run_has_another_number_of_ranks(self):
-        """From one to most, to some, and back."""
+        """From one to the most, to the fewest, and back."""
         route = [1, RANKS[-1], RANKS[0], 2, RANKS[-1], 1] if len(RANKS) > 1 else [1, RANKS[0], 2, RANKS[0], 1]
         for increment, ranks in enumerate(route, self.END - len(route) + 1):
             self.run_to(increment, "--restart", ranks=ranks)
@@ -129,14 +129,13 @@ class Refined(Bonds, OnManyRanks):
     CASE = changed(refinement.Refined.CASE, pulled(0.1))
 
 
-class Softening(Bonds, OnManyRanks):
+class Softening(Bonds, Few):
     """Bonds that soften, of two materials in a pattern, with a dilatation."""
 
-    MESH = fixture.plate_mesh(has_stiff=True)
-    CASE = changed(restart_materials.Softening.CASE, {
-        **pulled(0.1), "Material/Poisson's Ratio": 0.2, "Materials/stiff": {
-            "Blocks": ["stiff"], "Young's Modulus": 3000.0, "Poisson's Ratio": 0.2, "Bond Law": "Bilinear", "Tensile Strength": 15.0,
-            "Fracture Energy": 2.0}})
+    SOFT = {"Poisson's Ratio": 0.2, "Bond Law": "Bilinear", "Tensile Strength": 15.0, "Fracture Energy": 2.0}
+    MESH = fixture.plate_mesh(columns=6, rows=6, has_stiff=True)
+    CASE = changed(Few.CASE, {**{f"Material/{name}": value for name, value in SOFT.items()}, "Material/Critical Stretch": None,
+                              "Materials/stiff": {**SOFT, "Blocks": ["stiff"], "Young's Modulus": 3000.0}})
     # Where softening stops within an increment depends on Damage Tolerance, 1e-4.
     FORCE_TOLERANCE = ENERGY_TOLERANCE = 1e-2
 
@@ -155,7 +154,8 @@ class Ended(Few):
         """A run that has come to its first breaks, and the process of each of its ranks."""
         run = self.start(*EVERY, *settings("Loading/Increments=100000"), ranks=ranks)
         self.assertTrue(until(lambda: run.poll() is not None or self.has_rows(4), time_limit(ranks)), "nothing happened")
-        processes = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        lists = pathlib.Path(f"/proc/{run.pid}/task").glob("*/children")  # several of mpiexec's threads start ranks
+        processes = [process for children in lists for process in children.read_text().split()]
         return run, {self.rank_of(process): int(process) for process in processes}
 
     @staticmethod
