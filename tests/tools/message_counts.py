@@ -1,6 +1,9 @@
 """What tools/studies/scaling-study --count counts: a small hybrid square on two ranks."""
 
+import contextlib
+import io
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -8,7 +11,7 @@ import tempfile
 program, mpiexec, _ = sys.argv[1:]
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 sys.path[:0] = [os.path.join(ROOT, "tools", "studies", "lib"), os.path.join(ROOT, "tools", "lib")]
-from message_counts import PROFILER, Counts
+from message_counts import PROFILER, Counts, print_counts, print_sums
 from squares import square
 
 library = os.path.join(os.path.dirname(program), "..", "tests", "benchmarks", f"lib{PROFILER}.so")
@@ -39,3 +42,11 @@ assert everywhere.each(coarsest, "messages_max") >= 20
 assert gathered.value(coarsest, "messages_sum") == 0
 assert gathered.value(coarsest, "bytes_read_sum") == gathered.value(coarsest, "bytes_read_max") > 0
 assert abs(gathered.iterations - everywhere.iterations) <= 1
+
+printed = io.StringIO()
+last = {"unknowns": "7442", "cg_iterations": f"{gathered.iterations:.0f}"}
+with contextlib.redirect_stdout(printed):
+    print_counts("hybrid", gathered, last, 2)
+    print_sums(["hybrid"], [2], {("hybrid", 2): (gathered, last)})
+assert f"| level {coarsest - 2} " in printed.getvalue()
+assert re.search(rf"\| +hybrid \|.* {gathered.total('messages_max'):.0f} \|", printed.getvalue()), printed.getvalue()

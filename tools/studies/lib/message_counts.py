@@ -65,7 +65,7 @@ def print_sums(models, ranks, sums):
     for model in models:
         for n in ranks:
             counts, last = sums[model, n]
-            rows.append([model, last["unknowns"], n, last["cg_iterations"],
+            rows.append([model, last["unknowns"], str(n), last["cg_iterations"],
                          *(f"{counts.total(column):.0f}" for column in ("messages_max", "messages_sum", "reductions_max")),
                          f"{counts.total('bytes_max') / 1e3:.1f}",
                          f"{counts.total('bytes_read_max') * n / counts.total('bytes_read_sum'):.2f}"])
