@@ -333,7 +333,7 @@ def print_coarse_roots(folder, scale):
 
 def print_phase_field(folder, scale):
     """The program beside a phase field."""
-    need("numpy", "netCDF4", "matplotlib")  # no other table needs them
+    need("matplotlib")  # no other table needs it
     import phase_field_runs
 
     phase_field_runs.print_table_of_bodies(folder, scale)
@@ -342,5 +342,4 @@ def print_phase_field(folder, scale):
 TABLES = {"iterations": print_iterations, "zone": print_zone, "ranks": print_ranks, "notch": print_notch,
           "examples": print_examples, "tolerance": print_tolerance,
           "three_dimensions": print_three_dimensions, "windows": print_windows, "refinement": print_refinement,
-          "phase_field": print_phase_field}
-          "coarse_roots": print_coarse_roots}
+          "coarse_roots": print_coarse_roots, "phase_field": print_phase_field}
