@@ -28,7 +28,7 @@ class CompareSlab(InFolder):
         super().setUp()
         for name in ["plate_with_hole", "plate_with_hole_3d"]:
             shutil.copytree(ROOT / "inputs" / name, self.folder / name)
-        coarsen(self.folder / "plate_with_hole/plate_with_hole.geo", "dx = 1.5;", "dx = 5;")
+        coarsen(self.folder / "plate_with_hole/plate_with_hole.geo", "dx = 1.5]", "dx = 5]")
 
     def run_case(self, name, changes):
         command = [PERIMORPH, "run", self.folder / name / f"{name}.xml", "--output", self.folder / name / "out", "--quiet"]
