@@ -20,7 +20,7 @@ import fixture
 import in_3d
 import refinement
 import restart_materials
-from exports import read_vtp
+from fields import read_vtp
 from fixture import EVERY, GrowingCrack, changed, settings, until
 
 os.environ["LD_PRELOAD"] = SLEEPING_RANKS

@@ -7,13 +7,13 @@ import csv
 import pathlib
 import sys
 import unittest
-import xml.etree.ElementTree
 
 import netCDF4
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from fixture import EVERY, HALF, INCREMENTS, N, GrowingCrack, changed, half_plate_mesh, text_of
+from fields import read_vtp
 
 OUTPUT = {
     "Crack": True,
@@ -21,25 +21,6 @@ OUTPUT = {
     "Probes": {"corner": {"Points": [0, 12]}, "ahead, of the tip": {"Points": [7.25, 6.25, 12, 6.25], "Divisions": 4}},
 }
 TABLES = ["probes.csv", "crack.csv", "crack_path.csv"]
-TYPES = {"Int64": "<i8", "Float64": "<f8", "Int8": "i1"}
-
-
-def read_vtp(file):
-    """{name: array} of a VTK file with appended raw data."""
-    content = file.read_bytes()
-    begin = content.index(b'<AppendedData encoding="raw">\n_') + len(b'<AppendedData encoding="raw">\n_')
-    end = content.rindex(b"\n</AppendedData>")
-    tree = xml.etree.ElementTree.fromstring(content[:begin] + content[end:])
-    arrays = {}
-    for tag in tree.iter("DataArray"):
-        at = begin + int(tag.get("offset"))
-        size = int.from_bytes(content[at:at + 8], "little")
-        values = numpy.frombuffer(content[at + 8:at + 8 + size], TYPES[tag.get("type")])
-        arrays[tag.get("Name")] = values.reshape(-1, int(tag.get("NumberOfComponents")))
-    piece = next(tree.iter("Piece"))
-    assert len(arrays["points"]) == int(piece.get("NumberOfPoints"))
-    assert len(arrays["stretch"]) == int(piece.get("NumberOfLines"))
-    return arrays
 
 
 class Exports(GrowingCrack):

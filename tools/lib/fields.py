@@ -1,6 +1,7 @@
-"""Displacement at the end of a run, and damage at any step, for the tools that compare runs."""
+"""Displacement at the end of a run, damage at any step, bonds: for the tools that compare runs."""
 
 import collections
+import xml.etree.ElementTree
 
 import numpy as np
 
@@ -50,10 +51,45 @@ def last_damage(directory):
     return damage_in(file, step)
 
 
+def distances(places, others):
+    """Of each place from the nearest of the others, (places); infinite if there are none."""
+    if len(others) == 0:
+        return np.full(len(places), np.inf)
+    parts = np.array_split(places, len(places) * len(others) // 10**7 + 1)
+    return np.concatenate([np.linalg.norm(part[:, None] - others, axis=2).min(axis=1) for part in parts])
+
+
+def distances_between(one, other):
+    """Of each place from the nearest of the other set, both ways; none if a set is empty."""
+    if len(one) == 0 or len(other) == 0:
+        return np.empty(0)
+    return np.concatenate([distances(one, other), distances(other, one)])
+
+
 def distances_between_paths(one, other):
     """Of each damaged element from the nearest one of the other run, in the size of elements; none if a run has none."""
-    paths = [run.centroids[run.values > 0] for run in (one, other)]
-    if not all(map(len, paths)):
-        return np.empty(0)
-    gaps = [np.min(np.linalg.norm(paths[1 - k] - place, axis=-1)) for k in (0, 1) for place in paths[k]]
-    return np.array(gaps) / max(one.size, other.size)
+    return distances_between(*(run.centroids[run.values > 0] for run in (one, other))) / max(one.size, other.size)
+
+
+# --- Bonds ---
+
+VTK_TYPES = {"Int64": "<i8", "Float64": "<f8", "Int8": "i1"}
+
+
+def read_vtp(file):
+    """{name: array} of a VTK file with appended raw data, such as bonds-<increment>.vtp."""
+    with open(file, "rb") as stream:
+        content = stream.read()
+    begin = content.index(b'<AppendedData encoding="raw">\n_') + len(b'<AppendedData encoding="raw">\n_')
+    end = content.rindex(b"\n</AppendedData>")
+    tree = xml.etree.ElementTree.fromstring(content[:begin] + content[end:])
+    arrays = {}
+    for tag in tree.iter("DataArray"):
+        at = begin + int(tag.get("offset"))
+        size = int.from_bytes(content[at:at + 8], "little")
+        values = np.frombuffer(content[at + 8:at + 8 + size], VTK_TYPES[tag.get("type")])
+        arrays[tag.get("Name")] = values.reshape(-1, int(tag.get("NumberOfComponents")))
+    piece = next(tree.iter("Piece"))
+    assert len(arrays["points"]) == int(piece.get("NumberOfPoints"))
+    assert len(arrays["stretch"]) == int(piece.get("NumberOfLines"))
+    return arrays

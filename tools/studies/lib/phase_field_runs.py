@@ -11,6 +11,7 @@ import numpy as np
 
 import phase_field_cases as bodies
 from cases import rows_of, run
+from fields import distances_between
 from runs import ExodusFile, all_steps, series_of
 from tables import print_table
 
@@ -97,10 +98,8 @@ def fracture_mechanics(folder, body, tip, size, thickness, g_c):
 
 def between(one, other, size):
     """Mean distance of each place from the nearest one of the other crack, in elements."""
-    if not len(one) or not len(other):
-        return "-"
-    gaps = [np.min(np.linalg.norm(crack - place, axis=-1)) for places, crack in ((one, other), (other, one)) for place in places]
-    return f"{np.mean(gaps) / size:.2f}"
+    gaps = distances_between(one, other)
+    return f"{gaps.mean() / size:.2f}" if gaps.size else "-"
 
 
 def solves(outcome):
