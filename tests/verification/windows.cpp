@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Tpetra_Core.hpp>
+
 #include "support/fracture_body.hpp"
 
 namespace perimorph::tests {
@@ -76,8 +78,11 @@ TEST(Windows, BreakTheSameBondsWithDilatation) {
   Specimen specimen = strip();
   specimen.poissons_ratio = 0.2;
   const Iterations iterations = expect_the_same(specimen, {2., 3., 4.}, 7.);
-  // They take part. Whether they save any here, in so small a body, changes with its length and the number of ranks.
-  EXPECT_NE(iterations.windows, iterations.whole);
+  EXPECT_NE(iterations.windows, iterations.whole);  // they take part
+  // On more ranks they save none here: in so small a body it changes with its length and the number of ranks.
+  if (Tpetra::getDefaultComm()->getSize() <= 2) {
+    EXPECT_LT(iterations.windows, iterations.whole);
+  }
 }
 
 TEST(Windows, BreakTheSameBondsInThreeDimensions) {
