@@ -1,287 +1,258 @@
 #include "perimorph/mesh/distribute.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
+#include "nearby_elements.hpp"
 #include "packed_mesh.hpp"
 #include "partition.hpp"
+#include "perimorph/base/directory.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/base/point_tree.hpp"
-#include "perimorph/mesh/sorted_sides.hpp"
+#include "pieces.hpp"
 
 namespace perimorph::mesh {
 
 namespace {
 
-/// Each element by its bounding ball, [length].
-template <int dim>
-struct Balls {
-  std::vector<Point<dim>> centers;
-  std::vector<double> radii;
-};
+using base::Directory;
 
 template <int dim>
-Balls<dim> balls_of(const Mesh<dim>& mesh) {
-  Balls<dim> balls;
-  for (int e = 0; e < mesh.n_elements(); ++e) {
-    balls.centers.push_back(centroid(mesh, e));
-    balls.radii.push_back(radius(mesh, e));
-  }
-  return balls;
-}
-
-/// Who owns what of a whole mesh.
-struct Owners {
-  std::vector<int> elements;
-  std::vector<int> nodes;
-};
-
-template <int dim>
-Owners owners(const Mesh<dim>& whole, std::vector<int> element_owners) {
-  std::vector<int> node_owners(whole.n_nodes(), std::numeric_limits<int>::max());
-  for (int e = 0; e < whole.n_elements(); ++e) {
-    for (int c = 0; c < whole.n_corners(e); ++c) {
-      int& owner = node_owners[whole.corners_of(e)[c]];
-      owner = std::min(owner, element_owners[e]);
-    }
-  }
-  return {std::move(element_owners), std::move(node_owners)};
-}
-
-// ---- which elements a rank needs ----
-
-/// Some of the balls, which can be asked whether any of them comes near another one.
-template <int dim>
-class NearbyBalls {
- public:
-  NearbyBalls(const Balls<dim>& all, const std::vector<int>& members, double reach)
-      : all_(all), members_(members), reach_(reach), tree_(centers_of(all, members)) {
-    for (const int m : members_) {
-      box_.extend(all_.centers[m]);
-      largest_radius_ = std::max(largest_radius_, all_.radii[m]);
-    }
-  }
-
-  /// |c_e - c_a| <= reach + R_e + R_a for any member a.
-  bool is_near(int element) const {
-    const Point<dim>& center = all_.centers[element];
-    const double search_radius = (reach_ + all_.radii[element] + largest_radius_) * (1. + 1e-9);
-    if (box_.exteriorDistance(center) > search_radius) return false;
-    return tree_.any_within(center, search_radius, [&](int m) {
-      const int member = members_[m];
-      return (center - all_.centers[member]).norm() <= reach_ + all_.radii[element] + all_.radii[member];
-    });
-  }
-
- private:
-  static std::vector<Point<dim>> centers_of(const Balls<dim>& all, const std::vector<int>& members) {
-    std::vector<Point<dim>> centers;
-    for (const int m : members) centers.push_back(all.centers[m]);
-    return centers;
-  }
-
-  const Balls<dim>& all_;
-  const std::vector<int>& members_;
-  double reach_;
-  double largest_radius_ = 0.;
-  Eigen::AlignedBox<double, dim> box_;
-  base::PointTree<dim> tree_;
-};
-
-/// Nodes the forces on which are forces on nodes of the rank, per node: its own, and those that hang on them.
-template <int dim>
-std::vector<char> moved_nodes(const Mesh<dim>& whole, const std::vector<int>& node_owners, int rank) {
-  std::vector<char> are_moved(whole.n_nodes(), 0);
-  for (int n = 0; n < whole.n_nodes(); ++n) are_moved[n] = static_cast<char>(node_owners[n] == rank);
-  for (const auto& [node, n_parents, parents] : whole.hanging_nodes) {
-    if (std::any_of(parents.begin(), parents.begin() + n_parents, [&](int n) { return node_owners[n] == rank; }))
-      are_moved[node] = 1;
-  }
-  return are_moved;
-}
-
-template <int dim>
-bool has_corner_in(const Mesh<dim>& mesh, int element, const std::vector<char>& nodes) {
-  const int* corners = mesh.corners_of(element);
-  return std::any_of(corners, corners + mesh.n_corners(element), [&](int node) { return nodes[node] != 0; });
-}
-
-/// The rank's own elements, then all others it needs, each ascending.
-template <int dim>
-std::vector<int> elements_of_rank(const Mesh<dim>& whole, const Owners& owner, const Balls<dim>& balls,
-                                  double halo_width, int rank) {
-  const auto moved = moved_nodes(whole, owner.nodes, rank);
-  std::vector<int> active;
-  for (int e = 0; e < whole.n_elements(); ++e) {
-    if (owner.elements[e] == rank || has_corner_in(whole, e, moved)) active.push_back(e);
-  }
-  const NearbyBalls<dim> active_balls(balls, active, halo_width);
-  std::vector<int> own, halo;
-  for (int e = 0, next = 0; e < whole.n_elements(); ++e) {
-    const bool active_here = next < static_cast<int>(active.size()) && active[next] == e;
-    if (active_here) ++next;
-    if (owner.elements[e] == rank) {
-      own.push_back(e);
-    } else if (active_here || (!active.empty() && active_balls.is_near(e))) {
-      halo.push_back(e);
-    }
-  }
-  own.insert(own.end(), halo.begin(), halo.end());
-  return own;
-}
-
-// ---- cutting a rank's part out of the whole ----
-
-/// The nodes of some elements: the rank's own, then the others, each ascending.
-template <int dim>
-std::vector<int> nodes_of_elements(const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& elements,
-                                   int rank) {
-  std::vector<int> nodes;
-  for (const int e : elements) nodes.insert(nodes.end(), whole.corners_of(e), whole.corners_of(e) + whole.n_corners(e));
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  std::stable_partition(nodes.begin(), nodes.end(), [&](int node) { return owner.nodes[node] == rank; });
-  return nodes;
-}
-
-/// Local index of each item of the whole mesh, -1 where the rank does not have it.
-std::vector<int> local_indices(const std::vector<int>& items, int n_whole) {
-  std::vector<int> local(n_whole, -1);
-  for (std::size_t i = 0; i < items.size(); ++i) local[items[i]] = static_cast<int>(i);
-  return local;
-}
-
-std::vector<int> restricted(const std::vector<int>& nodes, const std::vector<int>& local) {
-  std::vector<int> kept;
-  for (const int node : nodes) {
-    if (local[node] >= 0) kept.push_back(local[node]);
-  }
-  std::sort(kept.begin(), kept.end());
-  return kept;
-}
-
-std::vector<Side> restricted(const std::vector<Side>& sides_of_whole, const std::vector<int>& local) {
-  std::vector<Side> kept;
-  for (const Side& side : sides_of_whole) {
-    if (local[side.element] >= 0) kept.push_back({local[side.element], side.side});
-  }
-  std::sort(kept.begin(), kept.end());
-  return kept;
-}
-
-/// Those of which the rank has the node and all parents.
-std::vector<HangingNode> restricted(const std::vector<HangingNode>& hanging, const std::vector<int>& local) {
-  std::vector<HangingNode> kept;
-  for (HangingNode one : hanging) {
-    one.node = local[one.node];
-    bool is_here = one.node >= 0;
-    for (int i = 0; i < one.n_parents; ++i) {
-      one.parents[i] = local[one.parents[i]];
-      is_here = is_here && one.parents[i] >= 0;
-    }
-    if (is_here) kept.push_back(one);
-  }
-  std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
-  return kept;
-}
-
-template <int dim>
-void copy_nodes(Mesh<dim>& part, const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& nodes) {
-  for (const int n : nodes) {
-    part.coordinates.push_back(whole.coordinates[n]);
-    part.node_ids.push_back(whole.node_ids[n]);
-    part.node_owners.push_back(owner.nodes[n]);
-    if (owner.nodes[n] == part.rank) ++part.n_owned_nodes;
-  }
-  part.n_global_nodes = whole.n_nodes();
-}
-
-template <int dim>
-void copy_elements(Mesh<dim>& part, const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& elements,
-                   const std::vector<int>& local_node) {
-  for (const int e : elements) {
-    part.types.push_back(whole.types[e]);
-    part.blocks.push_back(whole.blocks[e]);
-    part.element_ids.push_back(whole.element_ids[e]);
-    part.element_owners.push_back(owner.elements[e]);
-    for (int c = 0; c < whole.n_corners(e); ++c) part.corners.push_back(local_node[whole.corners_of(e)[c]]);
-    part.first_corner.push_back(static_cast<int>(part.corners.size()));
-    if (owner.elements[e] == part.rank) ++part.n_owned_elements;
-  }
-  part.n_global_elements = whole.n_elements();
-}
-
-template <int dim>
-Mesh<dim> cut_out(const Mesh<dim>& whole, const Owners& owner, const std::vector<int>& elements, int rank) {
-  const std::vector<int> nodes = nodes_of_elements(whole, owner, elements, rank);
-  const std::vector<int> local_node = local_indices(nodes, whole.n_nodes());
-  const std::vector<int> local_element = local_indices(elements, whole.n_elements());
-
-  Mesh<dim> part;
-  part.rank = rank;
-  copy_nodes(part, whole, owner, nodes);
-  copy_elements(part, whole, owner, elements, local_node);
-  part.block_names = whole.block_names;
-  for (const auto& [name, set] : whole.node_sets) part.node_sets[name] = restricted(set, local_node);
-  for (const auto& [name, set] : whole.side_sets) part.side_sets[name] = restricted(set, local_element);
-  part.boundary = restricted(whole.boundary, local_element);
-  part.hanging_nodes = restricted(whole.hanging_nodes, local_node);
-  return part;
-}
-
-template <int dim>
-void check_input(const Mesh<dim>& whole, double halo_width, const std::vector<double>& weights) {
-  check_consistency(whole);
-  PERIMORPH_ASSERT(whole.is_whole(), "{} of {} elements are here", whole.n_elements(), whole.n_global_elements);
+void check_input(const Mesh<dim>& part, double halo_width, const std::vector<double>& weights) {
+  check_consistency(part);
   PERIMORPH_ASSERT(std::isfinite(halo_width) && halo_width >= 0., "the halo's width is {}", halo_width);
-  PERIMORPH_ASSERT(weights.empty() || static_cast<int>(weights.size()) == whole.n_elements(),
-                   "{} weights for {} elements", weights.size(), whole.n_elements());
+  PERIMORPH_ASSERT(weights.empty() || static_cast<int>(weights.size()) == part.n_owned_elements,
+                   "{} weights for {} elements", weights.size(), part.n_owned_elements);
   PERIMORPH_ASSERT(std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w) && w >= 0.; }),
                    "one of {} weights is no cost", weights.size());
 }
 
-/// One message per rank.
+/// A mesh with the names and sizes that rank 0 knows, and nothing else. Collective.
 template <int dim>
-std::vector<std::vector<PackedWord>> packed_parts(const Mesh<dim>& whole, double halo_width,
-                                                  const std::vector<double>& weights, int n_ranks) {
-  check_input(whole, halo_width, weights);
-  const Balls<dim> balls = balls_of(whole);
-  const Owners owner = owners(whole, partition<dim>(balls.centers, weights, n_ranks));
-  std::vector<std::vector<PackedWord>> parts;
-  for (int rank = 0; rank < n_ranks; ++rank) {
-    const std::vector<int> elements = elements_of_rank(whole, owner, balls, halo_width, rank);
-    parts.push_back(pack(cut_out(whole, owner, elements, rank)));
+Mesh<dim> names_and_sizes(const base::Comm& comm, const Mesh<dim>& part) {
+  Mesh<dim> names;
+  if (comm.getRank() == 0) {
+    names.block_names = part.block_names;
+    for (const auto& entry : part.node_sets) names.node_sets[entry.first];
+    for (const auto& entry : part.side_sets) names.side_sets[entry.first];
+    names.n_global_nodes = part.n_global_nodes;
+    names.n_global_elements = part.n_global_elements;
   }
-  return parts;
+  return unpack<dim>(base::gather_on_all(comm, comm.getRank() == 0 ? pack(names) : std::vector<PackedWord>()));
+}
+
+template <int dim>
+std::vector<int> element_owners(const base::Comm& comm, const Mesh<dim>& part, const std::vector<double>& weights) {
+  std::vector<Point<dim>> centroids;
+  for (int e = 0; e < part.n_owned_elements; ++e) centroids.push_back(centroid(part, e));
+  const std::vector<GlobalId> ids(part.element_ids.begin(), part.element_ids.begin() + part.n_owned_elements);
+  const bool has_weights = !weights.empty() && part.n_owned_elements > 0;
+  return partition<dim>(comm, ids, centroids, has_weights ? weights : std::vector<double>(ids.size(), 1.));
+}
+
+/// The lowest rank that is to own an element around each local node. Collective.
+template <int dim>
+std::vector<int> node_owners(const Directory& nodes, const Mesh<dim>& part, const std::vector<int>& element_owners) {
+  constexpr int none = std::numeric_limits<int>::max();
+  std::vector<int> owners(part.n_nodes(), none), lowest(nodes.n_here(), none);
+  for (int e = 0; e < part.n_owned_elements; ++e) {
+    for (int c = 0; c < part.n_corners(e); ++c) {
+      int& owner = owners[part.corners_of(e)[c]];
+      owner = std::min(owner, element_owners[e]);
+    }
+  }
+  const auto told = nodes.tell(owners);
+  for (std::size_t rank = 0; rank < told.size(); ++rank) {
+    for (std::size_t i = 0; i < told[rank].size(); ++i) {
+      int& owner = lowest[nodes.known()[rank][i]];
+      owner = std::min(owner, told[rank][i]);
+    }
+  }
+  return nodes.answer_all(lowest);
+}
+
+/// The part's nodes in sets, whichever rank knows it. Collective.
+/// @param names whose sets are those of all ranks
+template <int dim>
+NodeSets complete_node_sets(const Directory& nodes, const Mesh<dim>& names, const Mesh<dim>& part) {
+  NodeSets complete;
+  for (const auto& [name, nobody] : names.node_sets) {
+    std::vector<char> are_in(part.n_nodes(), 0), slice(nodes.n_here(), 0);
+    if (const auto known = part.node_sets.find(name); known != part.node_sets.end()) {
+      for (const int node : known->second) are_in[node] = 1;
+    }
+    const auto told = nodes.tell(are_in);
+    for (std::size_t rank = 0; rank < told.size(); ++rank) {
+      for (std::size_t i = 0; i < told[rank].size(); ++i) slice[nodes.known()[rank][i]] |= told[rank][i];
+    }
+    are_in = nodes.answer_all(slice);
+    auto& set = complete[name];
+    for (int node = 0; node < part.n_nodes(); ++node) {
+      if (are_in[node] != 0) set.push_back(node);
+    }
+  }
+  return complete;
+}
+
+/// Per rank, those of the part's own elements that will be active there, ascending.
+template <int dim>
+std::vector<std::vector<int>> active_on(int n_ranks, const Mesh<dim>& part, const Owners& owners) {
+  std::vector<const HangingNode*> hanging(part.n_nodes(), nullptr);
+  for (const auto& one : part.hanging_nodes) hanging[one.node] = &one;
+  std::vector<std::vector<int>> active(n_ranks);
+  std::vector<int> ranks;
+  for (int e = 0; e < part.n_owned_elements; ++e) {
+    ranks = {owners.elements[e]};
+    for (int c = 0; c < part.n_corners(e); ++c) {
+      const int node = part.corners_of(e)[c];
+      ranks.push_back(owners.nodes[node]);
+      if (hanging[node] == nullptr) continue;
+      for (int i = 0; i < hanging[node]->n_parents; ++i) ranks.push_back(owners.nodes[hanging[node]->parents[i]]);
+    }
+    std::sort(ranks.begin(), ranks.end());
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    for (const int rank : ranks) active[rank].push_back(e);
+  }
+  return active;
+}
+
+/// What hangs on what, by ids.
+struct Hanging {
+  GlobalId node;
+  int n_parents;
+  std::array<GlobalId, 4> parents;
+};
+
+/// Of the nodes of some elements.
+template <int dim>
+std::vector<Hanging> hanging_at(const Mesh<dim>& part, const std::vector<int>& elements) {
+  std::vector<Hanging> found;
+  if (part.hanging_nodes.empty()) return found;
+  std::vector<char> is_there(part.n_nodes(), 0);
+  for (const int e : elements) {
+    for (int c = 0; c < part.n_corners(e); ++c) is_there[part.corners_of(e)[c]] = 1;
+  }
+  for (const auto& [node, n_parents, parents] : part.hanging_nodes) {
+    if (is_there[node] == 0) continue;
+    found.push_back({part.node_ids[node], n_parents, {}});
+    for (int i = 0; i < n_parents; ++i) found.back().parents[i] = part.node_ids[parents[i]];
+  }
+  return found;
+}
+
+/// Those of which the part has the node and all parents.
+template <int dim>
+void add_hanging_nodes(Mesh<dim>& part, const std::vector<std::vector<Hanging>>& told) {
+  if (std::all_of(told.begin(), told.end(), [](const auto& some) { return some.empty(); })) return;
+  std::unordered_map<GlobalId, int> local;
+  for (int n = 0; n < part.n_nodes(); ++n) local[part.node_ids[n]] = n;
+  std::vector<char> is_known(part.n_nodes(), 0);
+  for (const auto& some : told) {
+    for (const auto& [id, n_parents, parent_ids] : some) {
+      const auto node = local.find(id);
+      HangingNode one{-1, n_parents, {}};
+      bool is_here = node != local.end() && is_known[node->second] == 0;
+      for (int i = 0; i < n_parents && is_here; ++i) {
+        const auto parent = local.find(parent_ids[i]);
+        is_here = parent != local.end();
+        if (is_here) one.parents[i] = parent->second;
+      }
+      if (!is_here) continue;
+      one.node = node->second;
+      is_known[one.node] = 1;
+      part.hanging_nodes.push_back(one);
+    }
+  }
+  std::sort(part.hanging_nodes.begin(), part.hanging_nodes.end(),
+            [](const auto& a, const auto& b) { return a.node < b.node; });
+}
+
+/// Cuts pieces out of all parts, and puts this rank's together. Collective.
+template <int dim>
+Mesh<dim> exchanged(const base::Comm& comm, const Mesh<dim>& part, const NodeSets& node_sets, const Owners& owners,
+                    const std::vector<std::vector<int>>& needed) {
+  const auto own = static_cast<std::size_t>(comm.getRank());
+  std::vector<std::vector<PackedWord>> outgoing(needed.size());
+  std::vector<std::vector<Hanging>> hanging(needed.size());
+  std::vector<Mesh<dim>> pieces;
+  base::on_all_ranks(comm, [&] {
+    for (std::size_t rank = 0; rank < needed.size(); ++rank) {
+      if (needed[rank].empty()) continue;
+      hanging[rank] = hanging_at(part, needed[rank]);
+      auto piece = cut_out(part, node_sets, owners, needed[rank]);
+      if (rank == own) {
+        pieces.push_back(std::move(piece));
+      } else {
+        outgoing[rank] = pack(piece);
+      }
+    }
+  });
+  auto incoming = base::exchange(comm, outgoing);
+  const auto told = base::exchange(comm, hanging);
+  Mesh<dim> result;
+  base::on_all_ranks(comm, [&] {
+    for (auto& words : incoming) {
+      if (!words.empty()) pieces.push_back(unpack<dim>(words));
+      words = {};
+    }
+    result = join(pieces, comm.getRank());
+    add_hanging_nodes(result, told);
+  });
+  return result;
+}
+
+/// Nodes the forces on which are forces on nodes of this rank, per local node: its own, and those that hang on them.
+template <int dim>
+std::vector<char> moved_nodes(const Mesh<dim>& mesh) {
+  const auto is_own = [&](int node) { return mesh.node_owners[node] == mesh.rank; };
+  std::vector<char> are_moved(mesh.n_nodes(), 0);
+  for (int n = 0; n < mesh.n_nodes(); ++n) are_moved[n] = static_cast<char>(is_own(n));
+  for (const auto& [node, n_parents, parents] : mesh.hanging_nodes) {
+    if (std::any_of(parents.begin(), parents.begin() + n_parents, is_own)) are_moved[node] = 1;
+  }
+  return are_moved;
 }
 
 }  // namespace
 
 template <int dim>
-Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& whole, double halo_width,
+Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& part, double halo_width,
                      const std::vector<double>& weights) {
-  std::vector<std::vector<PackedWord>> outgoing(comm.getSize());
+  const Mesh<dim> nothing;
+  const auto& from = part.rank == comm.getRank() ? part : nothing;
   base::on_all_ranks(comm, [&] {
-    if (comm.getRank() == 0) outgoing = packed_parts(whole, halo_width, weights, comm.getSize());
+    if (&from == &part) check_input(part, halo_width, weights);
   });
-  const auto incoming = base::exchange(comm, outgoing);
+  const auto names = names_and_sizes(comm, from);
+  const GlobalId n_owned = base::sum(comm, GlobalId{from.n_owned_elements});
+  PERIMORPH_ASSERT(n_owned == names.n_global_elements, "{} of {} elements are owned", n_owned, names.n_global_elements);
 
-  Mesh<dim> part;
-  base::on_all_ranks(comm, [&] {
-    part = unpack<dim>(incoming[0]);
-    check_consistency(part);
-  });
-  return part;
+  const Directory nodes(comm, names.n_global_nodes, from.node_ids);
+  Owners owners;
+  owners.elements = element_owners(comm, from, weights);
+  owners.nodes = node_owners(nodes, from, owners.elements);
+  const auto node_sets = complete_node_sets(nodes, names, from);
+  const auto needed = needed_elements(comm, from, active_on(comm.getSize(), from, owners), halo_width);
+  auto result = exchanged(comm, from, node_sets, owners, needed);
+
+  result.block_names = names.block_names;
+  for (const auto& entry : names.node_sets) result.node_sets[entry.first];
+  for (const auto& entry : names.side_sets) result.side_sets[entry.first];
+  result.n_global_nodes = names.n_global_nodes;
+  result.n_global_elements = names.n_global_elements;
+  base::on_all_ranks(comm, [&] { check_consistency(result); });
+  return result;
 }
 
 template <int dim>
 std::vector<char> active_elements(const Mesh<dim>& mesh) {
-  const auto moved = moved_nodes(mesh, mesh.node_owners, mesh.rank);
+  const auto moved = moved_nodes(mesh);
   std::vector<char> active(mesh.n_elements(), 0);
   for (int e = 0; e < mesh.n_real_elements(); ++e) {
-    active[e] = static_cast<char>(e < mesh.n_owned_elements || has_corner_in(mesh, e, moved));
+    const int* corners = mesh.corners_of(e);
+    active[e] = static_cast<char>(e < mesh.n_owned_elements || std::any_of(corners, corners + mesh.n_corners(e),
+                                                                           [&](int n) { return moved[n] != 0; }));
   }
   return active;
 }

@@ -8,16 +8,26 @@
 #include <Zoltan2_PartitioningProblem.hpp>
 #include <Zoltan2_PartitioningSolution.hpp>
 #include <algorithm>
-#include <numeric>
+#include <array>
 
+#include "perimorph/base/directory.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::mesh {
 
 namespace {
 
-using Types = Zoltan2::BasicUserTypes<double, int, base::GlobalId>;
+using base::GlobalId;
+using Types = Zoltan2::BasicUserTypes<double, int, GlobalId>;
 using Adapter = Zoltan2::BasicVectorAdapter<Types>;
+
+/// A point on its way to the rank that has it while it is being parted.
+template <int dim>
+struct WeightedPoint {
+  GlobalId id;
+  std::array<double, dim> x;
+  double weight;
+};
 
 Teuchos::ParameterList multijagged(int n_parts) {
   Teuchos::ParameterList options;
@@ -27,41 +37,60 @@ Teuchos::ParameterList multijagged(int n_parts) {
   return options;
 }
 
+/// Each point's part. Collective.
 template <int dim>
-Adapter adapter_of(const std::vector<base::GlobalId>& ids, const std::vector<base::Point<dim>>& points,
-                   const std::vector<double>& weights) {
-  std::vector<const double*> components, weight_lists = {weights.data()};
-  for (int d = 0; d < dim; ++d) components.push_back(points.front().data() + d);
-  std::vector<int> strides(dim, dim), weight_strides = {1};
-  return Adapter(static_cast<int>(ids.size()), ids.data(), components, strides, weight_lists, weight_strides);
+std::vector<int> multijagged_parts(const base::Comm& comm, const std::vector<WeightedPoint<dim>>& points) {
+  std::vector<GlobalId> ids(points.size());
+  std::vector<std::vector<double>> values(dim + 1, std::vector<double>(points.size() + 1));  // never without address
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ids[i] = points[i].id;
+    for (std::size_t d = 0; d < dim; ++d) values[d][i] = points[i].x[d];
+    values[dim][i] = points[i].weight;
+  }
+  std::vector<const double*> components, weights = {values[dim].data()};
+  for (int d = 0; d < dim; ++d) components.push_back(values[static_cast<std::size_t>(d)].data());
+  std::vector<int> strides(dim, 1), weight_strides = {1};
+  Adapter adapter(static_cast<int>(ids.size()), ids.data(), components, strides, weights, weight_strides);
+  Teuchos::ParameterList options = multijagged(comm.getSize());
+  Zoltan2::PartitioningProblem<Adapter> problem(&adapter, &options, Teuchos::rcpFromRef(comm));
+  problem.solve();
+  const int* parts = problem.getSolution().getPartListView();
+  return points.empty() ? std::vector<int>() : std::vector<int>(parts, parts + points.size());
 }
 
 }  // namespace
 
 template <int dim>
-std::vector<int> partition(const std::vector<base::Point<dim>>& points, const std::vector<double>& weights,
-                           int n_parts) {
-  static_assert(sizeof(base::Point<dim>) == dim * sizeof(double), "points are strided arrays of coordinates");
-  PERIMORPH_ASSERT(n_parts >= 1, "{} parts", n_parts);
-  PERIMORPH_ASSERT(weights.empty() || weights.size() == points.size(), "{} weights of {} points", weights.size(),
-                   points.size());
-  PERIMORPH_ASSERT(std::all_of(points.begin(), points.end(), [](const auto& x) { return x.allFinite(); }),
-                   "one of {} points is nowhere", points.size());
-  if (n_parts == 1 || points.empty()) return std::vector<int>(points.size(), 0);
+std::vector<int> partition(const base::Comm& comm, const std::vector<GlobalId>& ids,
+                           const std::vector<base::Point<dim>>& points, const std::vector<double>& weights) {
+  base::on_all_ranks(comm, [&] {
+    PERIMORPH_ASSERT(ids.size() == points.size() && weights.size() == points.size(), "{} points, {} ids, {} weights",
+                     points.size(), ids.size(), weights.size());
+    PERIMORPH_ASSERT(std::all_of(points.begin(), points.end(), [](const auto& x) { return x.allFinite(); }),
+                     "one of {} points is nowhere", points.size());
+  });
+  const GlobalId n = base::sum(comm, static_cast<GlobalId>(points.size()));
+  if (comm.getSize() == 1 || n == 0) return std::vector<int>(points.size(), 0);
 
-  std::vector<base::GlobalId> ids(points.size());
-  std::iota(ids.begin(), ids.end(), base::GlobalId{0});
-  const std::vector<double> costs = weights.empty() ? std::vector<double>(points.size(), 1.) : weights;
-  Adapter adapter = adapter_of<dim>(ids, points, costs);
-  Teuchos::ParameterList options = multijagged(n_parts);
-  const Teuchos::RCP<const Teuchos::Comm<int>> this_rank_alone = Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
-  Zoltan2::PartitioningProblem<Adapter> problem(&adapter, &options, this_rank_alone);
-  problem.solve();
-  const int* parts = problem.getSolution().getPartListView();
-  return {parts, parts + points.size()};
+  const base::Directory directory(comm, n, ids);
+  std::vector<WeightedPoint<dim>> own(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    own[i] = {ids[i], {}, weights[i]};
+    std::copy_n(points[i].data(), dim, own[i].x.begin());
+  }
+  std::vector<WeightedPoint<dim>> slice(directory.n_here());
+  const auto told = directory.tell(own);
+  for (std::size_t rank = 0; rank < told.size(); ++rank) {
+    for (std::size_t i = 0; i < told[rank].size(); ++i) slice[directory.known()[rank][i]] = told[rank][i];
+  }
+  return directory.answer_all(multijagged_parts<dim>(comm, slice));
 }
 
-template std::vector<int> partition<2>(const std::vector<base::Point<2>>&, const std::vector<double>&, int);
-template std::vector<int> partition<3>(const std::vector<base::Point<3>>&, const std::vector<double>&, int);
+#define PERIMORPH_INSTANTIATE(dim)                                                     \
+  template std::vector<int> partition(const base::Comm&, const std::vector<GlobalId>&, \
+                                      const std::vector<base::Point<dim>>&, const std::vector<double>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
 
 }  // namespace perimorph::mesh

@@ -240,6 +240,56 @@ TYPED_TEST(Distribute, TheSameMeshIsAlwaysPartedInTheSameWay) {
   EXPECT_EQ(first.part.element_owners, second.part.element_owners);
 }
 
+/// What a test compares of two parts.
+template <int dim>
+void expect_same_part(const Mesh<dim>& one, const Mesh<dim>& other) {
+  EXPECT_EQ(one.rank, other.rank);
+  EXPECT_EQ(one.coordinates, other.coordinates);
+  EXPECT_EQ(one.node_ids, other.node_ids);
+  EXPECT_EQ(one.node_owners, other.node_owners);
+  EXPECT_EQ(one.types, other.types);
+  EXPECT_EQ(one.blocks, other.blocks);
+  EXPECT_EQ(one.element_ids, other.element_ids);
+  EXPECT_EQ(one.element_owners, other.element_owners);
+  EXPECT_EQ(one.corners, other.corners);
+  EXPECT_EQ(one.block_names, other.block_names);
+  EXPECT_EQ(one.node_sets, other.node_sets);
+  EXPECT_EQ(ids_of(one, one.boundary), ids_of(other, other.boundary));
+  ASSERT_EQ(one.side_sets.size(), other.side_sets.size());
+  for (const auto& [name, set] : one.side_sets) EXPECT_EQ(ids_of(one, set), ids_of(other, other.side_sets.at(name)));
+  EXPECT_EQ(one.n_owned_nodes, other.n_owned_nodes);
+  EXPECT_EQ(one.n_owned_elements, other.n_owned_elements);
+  EXPECT_EQ(one.n_global_nodes, other.n_global_nodes);
+  EXPECT_EQ(one.n_global_elements, other.n_global_elements);
+}
+
+TYPED_TEST(Distribute, PartsArePartedAsTheWhole) {
+  constexpr int dim = TypeParam::value;
+  const auto costs = [](const Mesh<dim>& part) {
+    std::vector<double> weights;
+    for (int e = 0; e < part.n_owned_elements; ++e) weights.push_back(part.blocks[e] == 0 ? 20. : 1.);
+    return weights;
+  };
+  const Parted<dim> plain(many_cells<dim>());
+  const Parted<dim> expected(many_cells<dim>(), costs(plain.whole));
+
+  const auto again = distribute(*plain.comm, plain.part, horizon, costs(plain.part));
+
+  expect_same_part(again, expected.part);
+  expect_same_part(distribute(*plain.comm, again, horizon), plain.part);
+}
+
+TYPED_TEST(Distribute, WhatOneRankKnowsOfANodeAllRanksLearn) {
+  constexpr int dim = TypeParam::value;
+  const Parted<dim> parted(many_cells<dim>());
+  auto part = parted.part;
+  for (auto& [name, nodes] : part.node_sets) {
+    nodes.erase(std::lower_bound(nodes.begin(), nodes.end(), part.n_owned_nodes), nodes.end());
+  }
+
+  expect_same_part(distribute(*parted.comm, part, horizon), parted.part);
+}
+
 TYPED_TEST(Distribute, EqualCostsGiveEqualParts) {
   const Parted<TypeParam::value> parted(many_cells<TypeParam::value>());
   const double ideal = static_cast<double>(parted.whole.n_elements()) / parted.comm->getSize();
@@ -302,6 +352,8 @@ TYPED_TEST(Distribute, RefusesAMeshOfWhichTheListsDoNotFitEachOther) {
   in_no_block.blocks[0] = 2;
 
   EXPECT_THROW(distribute(*comm, without_an_owner, horizon), base::Bug);
+  EXPECT_THROW(distribute(*comm, without_a_node, horizon), base::Bug);
+  ++without_a_node.n_global_elements;
   EXPECT_THROW(distribute(*comm, without_a_node, horizon), base::Bug);
   EXPECT_NO_THROW(check_consistency(whole));
 #ifdef PERIMORPH_DEBUG_ASSERTIONS

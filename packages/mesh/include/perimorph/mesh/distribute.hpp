@@ -7,17 +7,23 @@
 
 namespace perimorph::mesh {
 
-/// Partitions a whole mesh (on rank 0; ignored elsewhere) among the ranks by Zoltan2's multijagged algorithm on element
+/// Partitions a mesh anew among the ranks, whichever of them have it now: by Zoltan2's multijagged algorithm on element
 /// centroids. A node belongs to the lowest rank that owns an element around it. Every rank gets its own elements, all
 /// elements around its own nodes and around those that hang on them ("active" elements), and as halo every element of
-/// which some point may lie within halo_width of an active one: |c_e - c_a| <= halo_width + R_e + R_a. Collective.
-/// @param whole what read_mesh() and open_along() made, on rank 0
+/// which some point may lie within halo_width of an active one: |c_e - c_a| <= halo_width + R_e + R_a. The same mesh is
+/// always parted in the same way among as many ranks. Collective.
+/// @param part the mesh as this rank has it: a whole one (read_mesh(), open_along()) that belongs to rank 0, and
+/// nothing
+///        elsewhere, or what an earlier call returned. All elements are owned by one rank each, which knows their sides
+///        in sets and on the boundary and their hanging nodes; that a node is in a set, one rank that has it may know
+///        for all. What belongs to another rank is ignored. Images are left out.
 /// @param halo_width how far beyond its active elements a rank must see, such as the horizon, [length]
-/// @param weights cost of each element of the whole mesh, (n_elements), on rank 0, in any unit; empty for equal costs
+/// @param weights cost of each element that is owned here, (part.n_owned_elements), in any unit; empty on all ranks for
+///        equal costs
 /// @return this rank's part
-/// @throws Bug on all ranks if the mesh is not whole or a cost is negative
+/// @throws Bug on all ranks if an element is owned by none or several, or a cost is negative
 template <int dim>
-Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& whole, double halo_width,
+Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& part, double halo_width,
                      const std::vector<double>& weights = {});
 
 /// Per local element, (n_elements): owned here, or around a node owned here, or around one that hangs on such a node.
