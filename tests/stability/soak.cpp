@@ -11,6 +11,7 @@
 
 #include "perimorph/cases/problem.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
+#include "perimorph/output/partition_costs.hpp"
 #include "perimorph/output/run_observer.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_directory.hpp"
@@ -106,8 +107,8 @@ struct WholeRun {
         start(checkpoints.load()),
         mesh(read()),
         refinement(comm, {}, problem, input.numerical),
-        rebalancing(comm, input.solver.largest_imbalance, std::vector<double>(mesh.n_global_elements, 1.),
-                    base::silent_log()),
+        rebalancing(comm, input.solver.largest_imbalance,
+                    output::in_slices(*comm, mesh, std::vector<double>(mesh.n_owned_elements, 1.)), base::silent_log()),
         body(comm, mesh, problem, input.numerical, profile),
         results(comm, input, folder, {base::silent_log(), false}, profile, checkpoints.results()) {
     if (start) body.restore(output::share_state(*comm, *start, mesh));

@@ -163,10 +163,11 @@ class Run {
     auto refinement =
         refine(comm_, read(), input_, checkpoints_.planned_increments(), problem_, profile_, console_.log);
     return_to_start(refinement);
-    auto costs = checkpoints_.element_costs();
-    if (costs.empty()) costs = expected_costs(refinement);
-    output::Rebalancing<dim> rebalancing(comm_, input_.solver.largest_imbalance, std::move(costs), console_.log);
+    const auto& costs = checkpoints_.element_costs();
+    output::Rebalancing<dim> rebalancing(comm_, input_.solver.largest_imbalance,
+                                         costs ? *costs : expected_costs(refinement), console_.log);
     auto mesh = distribute(refinement.mesh(), rebalancing);
+    refinement.free_unrefined();
     describe(*comm_, input_, problem_, mesh, console_.log);
     describe(refinement, console_.log);
     warn_of(*comm_, input_, refinement, console_.log);
@@ -174,7 +175,9 @@ class Run {
         place_and_calibrate(comm_, mesh, input_, checkpoints_.planned_increments(), problem_, profile_, console_.log);
     advise(console_.log, input_, advice, spdlog::level::info);
     auto position = checkpoints_.position();
-    while (!is_done_on(mesh, refinement, rebalancing, position)) mesh = distribute(refinement.mesh(), rebalancing);
+    while (!is_done_on(mesh, refinement, rebalancing, position)) {
+      mesh = distribute(refinement.is_refined() ? refinement.mesh() : mesh, rebalancing);
+    }
   }
 
  private:
@@ -210,12 +213,13 @@ class Run {
   }
 
   std::vector<double> expected_costs(const model::Refinement<dim>& refinement) const {
-    return output::expected_costs(refinement.mesh(), problem_, input_.numerical.discontinuous);
+    return output::expected_costs(*comm_, refinement.mesh(), problem_, input_.numerical.discontinuous);
   }
 
-  mesh::Mesh<dim> distribute(const mesh::Mesh<dim>& whole, const output::Rebalancing<dim>& rebalancing) {
+  /// @param part a whole mesh on rank 0, or what the ranks have of it now
+  mesh::Mesh<dim> distribute(const mesh::Mesh<dim>& part, const output::Rebalancing<dim>& rebalancing) {
     const auto timer = profile_.measure(base::Phase::read);
-    return model::distribute_mesh(*comm_, whole, problem_, rebalancing.element_costs());
+    return model::distribute_mesh(*comm_, part, problem_, output::costs_of(*comm_, part, rebalancing.element_costs()));
   }
 
   /// Goes on with one partition of one mesh, as far as it serves; returns whether the run is done.
@@ -275,9 +279,10 @@ class Run {
     base::on_all_ranks(*comm_, [&] {
       if (comm_->getRank() == 0) start_ = output::refine_state<dim>(state, descents);
     });
+    const auto costs_before = base::gather_on_root(*comm_, rebalancing.element_costs());
     std::vector<double> costs;
-    for (const auto& descent : descents) costs.push_back(rebalancing.element_costs()[descent.ancestor]);
-    rebalancing.set_element_costs(std::move(costs));
+    for (const auto& descent : descents) costs.push_back(costs_before[descent.ancestor]);
+    rebalancing.set_element_costs(output::in_slices(*comm_, refinement.mesh(), costs));
     describe(refinement, console_.log);
   }
 
@@ -430,8 +435,8 @@ void check_in(const Comm& comm, const cases::Case& input, Verbosity verbosity, c
   log->info("{}", input::listing(input.resolved));
   const auto refinement = refine(comm, std::move(root), input, input.loading.increments, problem, profile, log);
   const auto& whole = refinement.mesh();
-  const auto costs = output::expected_costs(whole, problem, input.numerical.discontinuous);
-  const auto mesh = model::distribute_mesh(*comm, whole, problem, costs);
+  const auto costs = output::expected_costs(*comm, whole, problem, input.numerical.discontinuous);
+  const auto mesh = model::distribute_mesh(*comm, whole, problem, output::costs_of(*comm, whole, costs));
   describe(*comm, input, problem, mesh, log);
   describe(refinement, log);
   warn_of(*comm, input, refinement, log);

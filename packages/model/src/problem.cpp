@@ -54,11 +54,11 @@ discretization::Eigenstrain<dim> eigenstrain(const mesh::Mesh<dim>& mesh, const 
 }
 
 template <int dim>
-mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& from, const Problem<dim>& problem,
                                 const std::vector<double>& costs) {
   const bool is_uncracked_and_classical = !problem.has_zones() && problem.pre_cracks.empty();
   const double width = is_uncracked_and_classical ? 0. : problem.horizon();
-  auto part = mesh::distribute(comm, whole, width, costs);
+  auto part = mesh::distribute(comm, from, width, costs);
   std::vector<mesh::SymmetryPlane> planes;
   for (const auto& group : problem.symmetry_planes) planes.push_back(mesh::symmetry_plane(comm, part, group));
   mesh::add_images(part, std::move(planes), width);

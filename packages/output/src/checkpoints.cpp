@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "data_sets.hpp"
+#include "perimorph/base/directory.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/fingerprint.hpp"
 
@@ -156,8 +157,11 @@ std::optional<io::Checkpoint> Checkpoints<dim>::load() {
     return {};
   }
   DataSetReader reader(*comm_, loaded);
-  describe_origin(reader, position_, planned_increments_, loaded_mesh_, refinements_, element_costs_);
-  if (comm_->getRank() != 0) element_costs_.clear();
+  std::vector<double> costs;  // of all elements
+  describe_origin(reader, position_, planned_increments_, loaded_mesh_, refinements_, costs);
+  const base::Directory slices(*comm_, static_cast<GlobalId>(costs.size()), {});
+  element_costs_.emplace(costs.begin() + slices.begin(comm_->getRank()),
+                         costs.begin() + slices.begin(comm_->getRank() + 1));
   describe_results(reader, results_.emplace());
   results_->seconds_before = results_->seconds;
   log_->info("restart          after increment {}, {} broken bonds{}", position_.increment, results_->totals.broken,
@@ -278,13 +282,14 @@ void Checkpoints<dim>::write(Results<dim>& results) {
   PERIMORPH_ASSERT(results_.has_value(), "increment {} has no results", position_.increment);
   results.bring_to_disk();
   auto checkpoint = gather_state(*comm_, body_, owned_elements_);
+  const auto costs = base::gather_on_root(*comm_, element_costs_.value());
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
     check_results();
     DataSetWriter writer(checkpoint);
     writer.integers(format_name, current_format);
     checkpoint.texts[case_name] = case_lines_;
-    describe_origin(writer, position_, planned_increments_, mesh_identity_, refinements_, element_costs_);
+    describe_origin(writer, position_, planned_increments_, mesh_identity_, refinements_, costs);
     auto at_position = *results_;
     at_position.seconds = remembered_seconds_;
     describe_results(writer, at_position);

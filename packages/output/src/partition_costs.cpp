@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "perimorph/base/directory.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::output {
@@ -32,41 +33,57 @@ std::vector<double> own_costs(const Body<dim>& body) {
   return costs;
 }
 
+/// Where costs of the elements that the part owns are told and asked. Collective.
+template <int dim>
+base::Directory directory_of(const base::Comm& comm, const mesh::Mesh<dim>& part) {
+  const auto n = base::max(comm, part.n_global_elements);
+  if (part.rank != comm.getRank()) return {comm, n, {}};
+  return {comm, n, {part.element_ids.begin(), part.element_ids.begin() + part.n_owned_elements}};
+}
+
 }  // namespace
 
 template <int dim>
-std::vector<double> expected_costs(const mesh::Mesh<dim>& whole, const model::Problem<dim>& problem,
+std::vector<double> in_slices(const base::Comm& comm, const mesh::Mesh<dim>& part, const std::vector<double>& costs) {
+  const auto directory = directory_of(comm, part);
+  const auto told = directory.tell(costs);
+  std::vector<double> slice(directory.n_here());
+  for (std::size_t rank = 0; rank < told.size(); ++rank) {
+    for (std::size_t i = 0; i < told[rank].size(); ++i) slice[directory.known()[rank][i]] = told[rank][i];
+  }
+  return slice;
+}
+
+template <int dim>
+std::vector<double> costs_of(const base::Comm& comm, const mesh::Mesh<dim>& part, const std::vector<double>& slice) {
+  return directory_of(comm, part).answer_all(slice);
+}
+
+template <int dim>
+std::vector<double> expected_costs(const base::Comm& comm, const mesh::Mesh<dim>& part,
+                                   const model::Problem<dim>& problem,
                                    discretization::DiscontinuousElements discontinuous) {
   PERIMORPH_ASSERT(problem.seeds.empty() || problem.horizon() > 0., "seeds with a horizon of {}", problem.horizon());
-  std::vector<double> costs(whole.n_elements(), 1.);
-  for (int e = 0; e < whole.n_elements(); ++e) {
-    const auto center = mesh::centroid(whole, e);
+  std::vector<double> costs(part.rank == comm.getRank() ? part.n_owned_elements : 0, 1.);
+  for (int e = 0; e < static_cast<int>(costs.size()); ++e) {
+    const auto center = mesh::centroid(part, e);
     const bool is_in_zone = std::any_of(problem.seeds.begin(), problem.seeds.end(), [&](const auto& seed) {
       return seed.alpha(center, morphing::BlendingFunction::linear) > 0.;
     });
     if (!is_in_zone) continue;
-    double radius = 0.;  // of the element
-    for (int k = 0; k < whole.n_corners(e); ++k) {
-      radius = std::max(radius, (whole.coordinates[whole.corners_of(e)[k]] - center).norm());
-    }
-    const double n_points = whole.n_corners(e);  // as many as corners, about
+    const double radius = mesh::radius(part, e);
+    const double n_points = part.n_corners(e);  // as many as corners, about
     // A square or cube with this radius: the horizon's ball holds 1.6 or 2.7 times (horizon / radius)^dim of them.
     const double n_partners = (dim == 2 ? 1.6 : 2.7) * std::pow(problem.horizon() / radius, dim);
-    costs[e] = cost<dim>(discontinuous == discretization::DiscontinuousElements::whole_zone, whole.n_corners(e),
+    costs[e] = cost<dim>(discontinuous == discretization::DiscontinuousElements::whole_zone, part.n_corners(e),
                          0.5 * n_points * n_points * n_partners);
   }
-  return costs;
+  return in_slices(comm, part, costs);
 }
 
 template <int dim>
 std::vector<double> partition_costs(const base::Comm& comm, const Body<dim>& body) {
-  const auto first = body.mesh().element_ids.begin();
-  const auto ids = base::gather_on_root(comm, std::vector<base::GlobalId>(first, first + body.mesh().n_owned_elements));
-  const auto costs = base::gather_on_root(comm, own_costs(body));
-  PERIMORPH_ASSERT(ids.size() == costs.size(), "{} elements with {} costs", ids.size(), costs.size());
-  std::vector<double> by_id(costs.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) by_id[ids[i]] = costs[i];
-  return by_id;
+  return in_slices(comm, body.mesh(), own_costs(body));
 }
 
 template <int dim>
@@ -78,10 +95,12 @@ WorkShare measure_work(const base::Comm& comm, const Body<dim>& body) {
   return {total, base::max(comm, own) * comm.getSize() / total};
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                \
-  template std::vector<double> expected_costs(const mesh::Mesh<dim>&, const model::Problem<dim>&, \
-                                              discretization::DiscontinuousElements);             \
-  template std::vector<double> partition_costs(const base::Comm&, const Body<dim>&);              \
+#define PERIMORPH_INSTANTIATE(dim)                                                                                   \
+  template std::vector<double> in_slices(const base::Comm&, const mesh::Mesh<dim>&, const std::vector<double>&);     \
+  template std::vector<double> costs_of(const base::Comm&, const mesh::Mesh<dim>&, const std::vector<double>&);      \
+  template std::vector<double> expected_costs(const base::Comm&, const mesh::Mesh<dim>&, const model::Problem<dim>&, \
+                                              discretization::DiscontinuousElements);                                \
+  template std::vector<double> partition_costs(const base::Comm&, const Body<dim>&);                                 \
   template WorkShare measure_work(const base::Comm&, const Body<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -24,7 +24,7 @@ bool Rebalancing<dim>::is_wanted(const fracture::Body<dim>& body) {
   if (comm_->getSize() == 1 || body.counts().topologies == measured_topology_) return false;
   measured_topology_ = body.counts().topologies;
   const auto [total, imbalance] = measure_work(*comm_, body);
-  const double before = base::max(*comm_, std::accumulate(element_costs_.begin(), element_costs_.end(), 0.));
+  const double before = base::sum(*comm_, std::accumulate(element_costs_.begin(), element_costs_.end(), 0.));
   if (imbalance <= largest_imbalance_ || total <= growth * before) return false;
   log_->info("repartitioned    one rank had {:.2f} times the mean of the work", imbalance);
   element_costs_ = partition_costs(*comm_, body);

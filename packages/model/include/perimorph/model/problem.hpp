@@ -89,11 +89,10 @@ discretization::Eigenstrain<dim> eigenstrain(const mesh::Mesh<dim>& mesh, const 
 
 /// Each rank's part of the mesh, with a halo and images beyond planes of symmetry as the problem needs them.
 /// Collective.
-/// @param whole the mesh, on rank 0
-/// @param costs of each element of the whole mesh (on rank 0), in any unit, or empty for equal
-///        ones
+/// @param part the mesh, whole on rank 0 or as the ranks have it (mesh::distribute)
+/// @param costs of each element that is owned here, in any unit, or empty for equal ones
 template <int dim>
-mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& whole, const Problem<dim>& problem,
+mesh::Mesh<dim> distribute_mesh(const base::Comm& comm, const mesh::Mesh<dim>& part, const Problem<dim>& problem,
                                 const std::vector<double>& costs = {});
 
 }  // namespace perimorph::model

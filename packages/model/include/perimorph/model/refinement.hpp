@@ -24,6 +24,10 @@ class Refinement {
 
   bool is_refined() const { return options_.levels > 0; }
   const mesh::Mesh<dim>& mesh() const { return is_refined() ? refined_.mesh : root_; }
+  /// Of a mesh that is not refined, frees what rank 0 has: once it is distributed, nobody needs it any more. Local.
+  void free_unrefined() {
+    if (!is_refined()) root_ = {};
+  }
 
   /// Whether the elements at hanging nodes are beyond the reach of bonds in zones around all flag points. Collective.
   /// @param flag_points all since the beginning, those of earlier calls first

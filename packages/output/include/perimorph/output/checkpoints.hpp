@@ -43,8 +43,9 @@ class Checkpoints {
   /// How many increments the run was to have when it began. Local.
   int planned_increments() const { return planned_increments_; }
 
-  /// The cost of each element when the checkpoint that was loaded was written; on rank 0, {} if none was. Local.
-  const std::vector<double>& element_costs() const { return element_costs_; }
+  /// The cost of each element when the checkpoint that was loaded was written, in slices (partition_costs.hpp); none on
+  /// all ranks if none was loaded. Local.
+  const std::optional<std::vector<double>>& element_costs() const { return element_costs_; }
 
   /// The refinements of the mesh that the state at the position belongs to (model::Refinement::calls). Local.
   const std::vector<base::GlobalId>& refinements() const { return refinements_; }
@@ -64,7 +65,7 @@ class Checkpoints {
 
   /// Remembers an accepted increment, and writes it if it is due. At every /Output/Checkpoint Every increments, the run
   /// itself goes on as one that starts from there would, to the last bit. Collective.
-  /// @param element_costs by which the mesh is partitioned now, on rank 0
+  /// @param element_costs by which the mesh is partitioned now, in slices
   /// @param is_requested it is due in any case; the same on all ranks
   /// @throws ComputationError if it is due and cannot be written.
   void accept(const fracture::LoopPosition& position, fracture::Body<dim>& body, Results<dim>& results,
@@ -99,7 +100,7 @@ class Checkpoints {
   std::vector<base::GlobalId> owned_elements_;  ///< in the order of body_.displacement
   std::optional<ResultsState> results_;         ///< at the last accepted increment
   double remembered_seconds_ = 0.;              ///< of the run, at the position that is remembered, [s]
-  std::vector<double> element_costs_;
+  std::optional<std::vector<double>> element_costs_;
   std::vector<base::GlobalId> refinements_, refinements_of_mesh_;
   std::optional<io::Checkpoint> loaded_;  ///< as long as nothing else is remembered
 

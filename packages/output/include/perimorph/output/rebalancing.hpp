@@ -10,11 +10,11 @@ template <int dim>
 class Rebalancing {
  public:
   /// @param largest_imbalance of the work that is tolerated: the largest of a rank over the mean of ranks [-]
-  /// @param element_costs by which the mesh is partitioned first, by global id, in any unit; on rank 0
+  /// @param element_costs by which the mesh is partitioned first, in slices (partition_costs.hpp), in any unit
   Rebalancing(const Teuchos::RCP<const base::Comm>& comm, double largest_imbalance, std::vector<double> element_costs,
               base::Log log);
 
-  /// The cost of each element by which the mesh is to be partitioned, by global id; on rank 0. Local.
+  /// The cost of each element by which the mesh is to be partitioned, in slices. Local.
   const std::vector<double>& element_costs() const { return element_costs_; }
 
   /// Of another mesh, as for the constructor. Local.
