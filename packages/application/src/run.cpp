@@ -194,12 +194,12 @@ class Run {
 
   mesh::Mesh<dim> read() {
     const auto timer = profile_.measure(base::Phase::read);
-    auto checked = cases::read_whole_mesh<dim>(*comm_, input_, folder_.for_mesh());
-    log_notes(checked.whole, console_.log);
+    auto checked = cases::read_mesh<dim>(*comm_, input_, folder_.for_mesh());
+    log_notes(checked.mesh, console_.log);
     warn(console_.log, input_, checked.warnings);
-    warn_of_names(checked.whole, input_, console_.log);
-    checkpoints_.identify(checked.whole);
-    return std::move(checked.whole);
+    warn_of_names(checked.mesh, input_, console_.log);
+    checkpoints_.identify(checked.mesh);
+    return std::move(checked.mesh);
   }
 
   /// The mesh becomes that of the state from which the next body goes on; none: the first one. Returns whether it was

@@ -1,6 +1,7 @@
 #include "perimorph/cases/geometry.hpp"
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/mesh/distribute.hpp"
 #include "perimorph/mesh_files/read_mesh.hpp"
 
 namespace perimorph::cases {
@@ -70,11 +71,21 @@ mesh::Mesh<dim> read_closed_mesh(const Case& input, const std::string& folder) {
   return mesh_files::mesh_and_read<dim>(input.mesh.file, folder, input.mesh.scale, input.mesh.meshing);
 }
 
+template <int dim>
+mesh::Mesh<dim> read_closed_parts(const base::Comm& comm, const Case& input, const std::string& folder) {
+  mesh::Mesh<dim> whole;
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() == 0) whole = read_closed_mesh<dim>(input, folder);
+  });
+  return mesh::distribute(comm, whole, 0.);
+}
+
 #define PERIMORPH_INSTANTIATE(dim)                                                          \
   template morphing::Zone<dim> zone_of<dim>(const Seed&);                                   \
   template std::vector<mesh::CrackFacet<dim>> facets_of<dim>(const std::vector<PreCrack>&); \
   template std::vector<Point<dim>> places_of<dim>(const Probe&);                            \
-  template mesh::Mesh<dim> read_closed_mesh<dim>(const Case&, const std::string&);
+  template mesh::Mesh<dim> read_closed_mesh<dim>(const Case&, const std::string&);          \
+  template mesh::Mesh<dim> read_closed_parts<dim>(const base::Comm&, const Case&, const std::string&);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

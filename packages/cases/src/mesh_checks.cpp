@@ -14,7 +14,10 @@
 #include "perimorph/base/text.hpp"
 #include "perimorph/cases/geometry.hpp"
 #include "perimorph/elements/locator.hpp"
+#include "perimorph/mesh/distribute.hpp"
+#include "perimorph/mesh/extent.hpp"
 #include "perimorph/mesh/images.hpp"
+#include "perimorph/mesh/parts.hpp"
 #include "place_checks.hpp"
 #include "support_advice.hpp"
 
@@ -26,18 +29,11 @@ using base::Point;
 using input::in_quotes;
 using input::Mistakes;
 
+/// Such that powers of its lengths are numbers. Collective.
 template <int dim>
-Eigen::AlignedBox<double, dim> box_around(const mesh::Mesh<dim>& mesh) {
-  Eigen::AlignedBox<double, dim> box;
-  for (const auto& x : mesh.coordinates) box.extend(x);
-  return box;
-}
-
-/// Such that powers of its lengths are numbers.
-template <int dim>
-bool has_usual_size(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& mistakes) {
+bool has_usual_size(const base::Comm& comm, const Case& input, const mesh::Mesh<dim>& mesh, Mistakes& mistakes) {
   constexpr double smallest = 1e-30, largest = 1e30;
-  const double size = box_around(whole).diagonal().norm();
+  const double size = mesh::box_around(comm, mesh).diagonal().norm();
   if (size >= smallest && size <= largest) return true;
   mistakes.add(input::line_of(input.lines, "/Mesh/Scale"), "/Mesh/Scale",
                fmt::format("found {:.6g}, by which the body has the size {:.3g}; allowed are bodies from {} to {}",
@@ -45,21 +41,22 @@ bool has_usual_size(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& m
   return false;
 }
 
+/// Of a whole mesh, or of what each rank has of one: then a mistake on any rank says that there may be one, though
+/// perhaps not in these words.
 template <int dim>
 class Checks {
  public:
-  Checks(const Case& input, const mesh::Mesh<dim>& whole, Mistakes& mistakes)
-      : input_(input), mesh_(whole), mistakes_(mistakes) {}
+  Checks(const base::Comm& comm, const Case& input, const mesh::Mesh<dim>& mesh, Mistakes& mistakes)
+      : comm_(comm), input_(input), mesh_(mesh), mistakes_(mistakes) {}
 
+  /// Collective.
   void run() {
     check_groups(input_.resolved, input_.lines, mesh_, mistakes_);
     const bool are_supports_known = mistakes_.none_in(displacements_path) && mistakes_.none_in(rigid_groups_path);
     check_contradictions();
     check_group_conflicts();
     const auto planes = mistakes_.none_in(symmetry_planes_path) ? checked_planes() : std::vector<mesh::SymmetryPlane>();
-    if (are_supports_known && mistakes_.none_in(symmetry_planes_path)) {
-      check_free_motions(input_, mesh_, planes, mistakes_);
-    }
+    if (are_supports_known && none_anywhere_in(symmetry_planes_path)) check_supports(planes);
     if (!mistakes_.none_in("/Mesh")) return;  // lengths may be wrong
     check_measured_points();
     check_probes();
@@ -71,6 +68,16 @@ class Checks {
  private:
   void add(const std::string& path, const std::string& what) {
     mistakes_.add(input::line_of(input_.lines, path), path, what);
+  }
+
+  /// Of what any rank alone may find.
+  bool none_anywhere_in(const std::string& path) const {
+    return base::max(comm_, static_cast<base::GlobalId>(!mistakes_.none_in(path))) == 0;
+  }
+
+  void check_supports(const std::vector<mesh::SymmetryPlane>& planes) {
+    if (comm_.getSize() == 1) return check_free_motions(input_, mesh_, planes, mistakes_);
+    if (!is_surely_held(comm_, input_, mesh_, planes)) add(displacements_path, "parts of the body may move");
   }
 
   // ---- points at which something is measured ----
@@ -92,8 +99,12 @@ class Checks {
   /// One place of a line says enough.
   void check_inside(const std::string& path, const std::vector<Point<dim>>& places) {
     if (!locator_) locator_ = std::make_unique<elements::Locator<dim>>(mesh_);
-    const auto outside = std::find_if(places.begin(), places.end(), [&](const auto& x) { return !locator_->find(x); });
-    if (outside == places.end()) return;
+    std::vector<double> n_finds;  // by place: on how many ranks it is
+    for (const auto& x : places) n_finds.push_back(locator_->find(x) ? 1. : 0.);
+    base::sum(comm_, n_finds);
+    const auto first = std::find(n_finds.begin(), n_finds.end(), 0.) - n_finds.begin();
+    if (first == static_cast<std::ptrdiff_t>(places.size())) return;
+    const auto outside = places.begin() + first;
     const auto is_nearer = [&](const Point<dim>& a, const Point<dim>& b) {
       return (a - *outside).norm() < (b - *outside).norm();
     };
@@ -146,7 +157,7 @@ class Checks {
     for (const auto& [name, group] : input_.boundary_conditions.symmetry_planes) {
       const auto path = fmt::format("{}/{}", symmetry_planes_path, name);
       try {
-        planes.push_back(mesh::symmetry_plane(Teuchos::SerialComm<int>(), mesh_, group));
+        planes.push_back(mesh::symmetry_plane(comm_, mesh_, group));
       } catch (const base::UserError& error) {
         add(path, error.what());
         continue;
@@ -188,7 +199,7 @@ class Checks {
 
   /// There are no longer bonds than the body is.
   void check_longest_horizon() {
-    const Eigen::AlignedBox<double, dim> box = box_around(mesh_);
+    const Eigen::AlignedBox<double, dim> box = mesh::box_around(comm_, mesh_);
     const double size = box.diagonal().norm();
     if (input_.morphing.seeds.empty() || input_.peridynamics.horizon <= size) return;
     add("/Peridynamics/Horizon",
@@ -221,6 +232,7 @@ class Checks {
     }
   }
 
+  const base::Comm& comm_;
   const Case& input_;
   const mesh::Mesh<dim>& mesh_;
   Mistakes& mistakes_;
@@ -231,18 +243,39 @@ class Checks {
 
 template <int dim>
 std::vector<std::string> open_and_check(const Case& input, mesh::Mesh<dim>& whole, input::Mistakes& mistakes) {
-  if (!has_usual_size(input, whole, mistakes)) return {};
+  const Teuchos::SerialComm<int> alone;
+  if (!has_usual_size(alone, input, whole, mistakes)) return {};
   if (mistakes.none_in("/Mesh")) check_places(input, whole, mistakes);
   auto warnings = loose_connections(whole);
   if (!input.pre_cracks.empty()) mesh::open_along<dim>(whole, facets_of<dim>(input.pre_cracks));
-  Checks<dim>(input, whole, mistakes).run();
+  Checks<dim>(alone, input, whole, mistakes).run();
   if (!mistakes.empty()) return {};
   for (auto& line : warnings) line.insert(0, "/Mesh/File: ");
   for (const auto& line : advice_on_supports(input, whole)) warnings.push_back(line);
   return warnings;
 }
 
-template std::vector<std::string> open_and_check(const Case&, mesh::Mesh<2>&, input::Mistakes&);
-template std::vector<std::string> open_and_check(const Case&, mesh::Mesh<3>&, input::Mistakes&);
+template <int dim>
+bool open_if_sound(const base::Comm& comm, const Case& input, mesh::Mesh<dim>& part) {
+  const auto is_on_any_rank = [&](bool here) { return base::max(comm, static_cast<base::GlobalId>(here)) > 0; };
+  input::Mistakes mistakes(input.file);  // in words that nobody reads
+  if (!has_usual_size(comm, input, part, mistakes) || !are_surely_in_body(comm, input, part)) return false;
+  const auto before = mesh::connections(comm, part);
+  if (before.n_parts > 1 || before.n_hinges > 0 || is_on_any_rank(!mesh::coincident_nodes(part).empty())) return false;
+  if (!input.pre_cracks.empty()) {
+    mesh::open_along<dim>(comm, part, facets_of<dim>(input.pre_cracks));
+    part = mesh::distribute(comm, part, 0.);
+    if (mesh::connections(comm, part).n_parts > 1) return false;
+  }
+  Checks<dim>(comm, input, part, mistakes).run();
+  return !is_on_any_rank(!mistakes.empty()) && !is_on_any_rank(!advice_on_supports(input, part).empty());
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                                   \
+  template std::vector<std::string> open_and_check(const Case&, mesh::Mesh<dim>&, input::Mistakes&); \
+  template bool open_if_sound(const base::Comm&, const Case&, mesh::Mesh<dim>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
 
 }  // namespace perimorph::cases

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "perimorph/base/parallel.hpp"
 #include "perimorph/cases/case.hpp"
 #include "perimorph/input/mistakes.hpp"
 #include "perimorph/mesh/mesh.hpp"
@@ -15,5 +16,15 @@ namespace perimorph::cases {
 /// @return what can be computed, but is hardly meant so, a line each; nothing if there are mistakes
 template <int dim>
 std::vector<std::string> open_and_check(const Case& input, mesh::Mesh<dim>& whole, input::Mistakes& mistakes);
+
+/// The same of a mesh in parts, without words: opens it if there is surely no mistake and nothing to be said. The
+/// checks are made where the mesh is, and are on the safe side: what may be wrong between parts of the body, and
+/// whatever is wrong, only a look at the whole can tell. Collective.
+/// @param input of a case without mistakes
+/// @param part what mesh::distribute() has made; on return, if it is sound, opened along the pre-cracks, otherwise of
+/// no
+///        use
+template <int dim>
+bool open_if_sound(const base::Comm& comm, const Case& input, mesh::Mesh<dim>& part);
 
 }  // namespace perimorph::cases

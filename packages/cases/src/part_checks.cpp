@@ -13,6 +13,7 @@
 #include "perimorph/base/point_tree.hpp"
 #include "perimorph/base/text.hpp"
 #include "perimorph/elements/reference_element.hpp"
+#include "perimorph/mesh/extent.hpp"
 #include "perimorph/mesh/parts.hpp"
 #include "perimorph/mesh/sorted_sides.hpp"
 
@@ -62,6 +63,15 @@ class RigidMotions {
   /// A hinge: both parts move alike there.
   void join(int part, int other, const Point<dim>& point) {
     for (int component = 0; component < dim; ++component) join(part, point, other, point, component);
+  }
+
+  /// Holds what any rank's motions hold. Collective.
+  void unite(const base::Comm& comm) {
+    std::vector<double> sums(sum_.data(), sum_.data() + sum_.size());
+    sums.push_back(static_cast<double>(n_held_));
+    base::sum(comm, sums);
+    std::copy_n(sums.begin(), sum_.size(), sum_.data());
+    n_held_ = static_cast<long>(sums.back());
   }
 
   /// What is free, in words ("translation in x, rotation"), or "". Of a single part.
@@ -404,21 +414,50 @@ void describe_hinges(const mesh::Mesh<dim>& mesh, std::vector<std::string>& line
       base::counted(hinges.size(), "node"), shown<dim>(mesh.coordinates[hinges[0].node]), dim == 2 ? "edge" : "face"));
 }
 
+std::vector<discretization::PrescribedComponent> supports_from_the_start(const Case& input) {
+  auto displacements = normalized(input.boundary_conditions.displacements);
+  const auto is_later = [&](const auto& one) { return std::isfinite(begin_of(one.name, input.loading.steps)); };
+  displacements.erase(std::remove_if(displacements.begin(), displacements.end(), is_later), displacements.end());
+  return displacements;
+}
+
 }  // namespace
 
 template <int dim>
 void check_free_motions(const Case& input, const mesh::Mesh<dim>& whole, const std::vector<mesh::SymmetryPlane>& planes,
                         input::Mistakes& mistakes) {
   const auto& conditions = input.boundary_conditions;
-  auto displacements = normalized(conditions.displacements);
-  const auto is_later = [&](const auto& one) { return std::isfinite(begin_of(one.name, input.loading.steps)); };
-  displacements.erase(std::remove_if(displacements.begin(), displacements.end(), is_later), displacements.end());
-  const auto lines = FreeMotions<dim>(whole, conditions.rigid_groups).describe(displacements, planes);
+  const auto lines = FreeMotions<dim>(whole, conditions.rigid_groups).describe(supports_from_the_start(input), planes);
   const auto add = [&](const std::string& what) {
     mistakes.add(input::line_of(input.lines, displacements_path), displacements_path, what);
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(most_listed, lines.size()); ++i) add(lines[i]);
   if (lines.size() > most_listed) add(fmt::format("and {} other parts", lines.size() - most_listed));
+}
+
+template <int dim>
+bool is_surely_held(const base::Comm& comm, const Case& input, const mesh::Mesh<dim>& part,
+                    const std::vector<mesh::SymmetryPlane>& planes) {
+  const auto& groups = input.boundary_conditions.rigid_groups;
+  RigidMotions<dim> motions({mesh::box_around(comm, part)});
+  const auto hold = [&](const std::vector<int>& nodes, const Point<dim>& direction) {
+    for (const int node : nodes) {
+      if (node < part.n_owned_nodes) motions.hold(0, part.coordinates[node], direction);
+    }
+  };
+  for (const auto& d : supports_from_the_start(input)) {
+    const auto* group = moved_by(d, groups);
+    if (group == nullptr || group->shared_component >= 0) {
+      hold(part.node_sets.at(d.node_set), discretization::direction_of<dim>(d));
+    } else if (const Point<dim> center = discretization::center_of(comm, part, *group); d.component >= dim) {
+      motions.hold_rotation(0, d.component - discretization::PrescribedComponent::first_rotation);
+    } else {
+      motions.hold(0, center, Point<dim>::Unit(d.component));
+    }
+  }
+  for (const auto& plane : planes) hold(plane.nodes, Point<dim>::Unit(plane.axis));
+  motions.unite(comm);
+  return motions.free().empty();
 }
 
 template <int dim>
@@ -434,6 +473,8 @@ std::vector<std::string> loose_connections(const mesh::Mesh<dim>& whole) {
 #define PERIMORPH_INSTANTIATE(dim)                                                                               \
   template void check_free_motions(const Case&, const mesh::Mesh<dim>&, const std::vector<mesh::SymmetryPlane>&, \
                                    input::Mistakes&);                                                            \
+  template bool is_surely_held(const base::Comm&, const Case&, const mesh::Mesh<dim>&,                           \
+                               const std::vector<mesh::SymmetryPlane>&);                                         \
   template std::vector<std::string> loose_connections(const mesh::Mesh<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -60,6 +60,18 @@ Point<dim> middle(const morphing::Zone<dim>& zone) {
   return 0.5 * (zone.lower + zone.upper);
 }
 
+bool is_anywhere(const Seed& seed) { return seed.shape == SeedShape::automatic || seed.shape == SeedShape::everything; }
+
+template <int dim>
+bool reaches_nodes_or_centroids(const mesh::Mesh<dim>& mesh, const morphing::Zone<dim>& zone) {
+  const auto is_in = [&](const Point<dim>& x) { return zone.alpha(x, morphing::BlendingFunction::linear) > 0.; };
+  if (std::any_of(mesh.coordinates.begin(), mesh.coordinates.end(), is_in)) return true;
+  for (int e = 0; e < mesh.n_elements(); ++e) {
+    if (is_in(mesh::centroid(mesh, e))) return true;
+  }
+  return false;
+}
+
 template <int dim>
 class PlaceChecks {
  public:
@@ -101,7 +113,7 @@ class PlaceChecks {
   }
 
   void check(const Seed& seed) {
-    if (seed.shape == SeedShape::automatic || seed.shape == SeedShape::everything) return;
+    if (is_anywhere(seed)) return;
     const auto zone = zone_of<dim>(seed);
     if (reaches_body(zone)) return;
     add("/Morphing/Seeds/" + seed.name,
@@ -112,11 +124,7 @@ class PlaceChecks {
   }
 
   bool reaches_body(const morphing::Zone<dim>& zone) {
-    const auto is_in = [&](const Point<dim>& x) { return zone.alpha(x, morphing::BlendingFunction::linear) > 0.; };
-    if (std::any_of(mesh_.coordinates.begin(), mesh_.coordinates.end(), is_in)) return true;
-    for (int e = 0; e < mesh_.n_elements(); ++e) {
-      if (is_in(mesh::centroid(mesh_, e))) return true;
-    }
+    if (reaches_nodes_or_centroids(mesh_, zone)) return true;
     if (!locator_) locator_ = std::make_unique<elements::Locator<dim>>(mesh_);
     return locator_->find(middle(zone)).has_value();  // it is smaller than an element
   }
@@ -144,7 +152,26 @@ void check_places(const Case& input, const mesh::Mesh<dim>& whole, input::Mistak
   PlaceChecks<dim>(input, whole, mistakes).run();
 }
 
-template void check_places(const Case&, const mesh::Mesh<2>&, input::Mistakes&);
-template void check_places(const Case&, const mesh::Mesh<3>&, input::Mistakes&);
+template <int dim>
+bool are_surely_in_body(const base::Comm& comm, const Case& input, const mesh::Mesh<dim>& part) {
+  std::vector<double> n_finds;  // on how many ranks each of them is in the body
+  for (const auto& crack : input.pre_cracks) {
+    const double size = std::ldexp(1., -input.numerical.refinement.levels);
+    n_finds.push_back(mesh::place_of<dim>(part, facets_of<dim>({crack}), size) == CrackPlace::inside ? 1. : 0.);
+  }
+  for (const auto& seed : input.morphing.seeds) {
+    if (is_anywhere(seed)) continue;
+    n_finds.push_back(reaches_nodes_or_centroids(part, zone_of<dim>(seed)) ? 1. : 0.);
+  }
+  base::sum(comm, n_finds);
+  return std::find(n_finds.begin(), n_finds.end(), 0.) == n_finds.end();
+}
+
+#define PERIMORPH_INSTANTIATE(dim)                                                   \
+  template void check_places(const Case&, const mesh::Mesh<dim>&, input::Mistakes&); \
+  template bool are_surely_in_body(const base::Comm&, const Case&, const mesh::Mesh<dim>&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
 
 }  // namespace perimorph::cases

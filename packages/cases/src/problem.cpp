@@ -8,6 +8,7 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/cases/geometry.hpp"
 #include "perimorph/materials/softening.hpp"
+#include "perimorph/mesh/distribute.hpp"
 
 namespace perimorph::cases {
 
@@ -181,6 +182,15 @@ void check_numbers(const Case& input, const materials::Material<dim>& material, 
                   input.file, tau0, stretch, energy, solid.youngs_modulus, horizon, length));
 }
 
+/// Of a whole mesh, on rank 0.
+template <int dim>
+std::vector<std::string> open_or_report(const Case& input, mesh::Mesh<dim>& whole) {
+  input::Mistakes mistakes(input.file);
+  auto warnings = open_and_check(input, whole, mistakes);
+  mistakes.report();
+  return warnings;
+}
+
 }  // namespace
 
 template <int dim>
@@ -251,20 +261,35 @@ CheckedMesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, cons
   CheckedMesh<dim> result;
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() != 0) return;
-    result.whole = read_closed_mesh<dim>(input, folder);
-    input::Mistakes mistakes(input.file);
-    result.warnings = open_and_check(input, result.whole, mistakes);
-    mistakes.report();
+    result.mesh = read_closed_mesh<dim>(input, folder);
+    result.warnings = open_or_report(input, result.mesh);
   });
   return result;
 }
 
-template model::Problem<2> make_problem<2>(const Case&);
-template void check_compressive_strengths<2>(const Case&, const model::Problem<2>&);
-template CheckedMesh<2> read_whole_mesh<2>(const base::Comm&, const Case&, const std::string&);
+template <int dim>
+CheckedMesh<dim> read_mesh(const base::Comm& comm, const Case& input, const std::string& folder) {
+  const auto& refinement = input.numerical.refinement;
+  if (comm.getSize() == 1 || refinement.levels > 0 || refinement.perturbation > 0.) {
+    return read_whole_mesh<dim>(comm, input, folder);
+  }
+  const auto closed = read_closed_parts<dim>(comm, input, folder);
+  CheckedMesh<dim> result{closed, {}};
+  if (open_if_sound(comm, input, result.mesh)) return result;
+  result.mesh = mesh::gather(comm, closed);
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() == 0) result.warnings = open_or_report(input, result.mesh);
+  });
+  return result;
+}
 
-template model::Problem<3> make_problem<3>(const Case&);
-template void check_compressive_strengths<3>(const Case&, const model::Problem<3>&);
-template CheckedMesh<3> read_whole_mesh<3>(const base::Comm&, const Case&, const std::string&);
+#define PERIMORPH_INSTANTIATE(dim)                                                                    \
+  template model::Problem<dim> make_problem<dim>(const Case&);                                        \
+  template void check_compressive_strengths<dim>(const Case&, const model::Problem<dim>&);            \
+  template CheckedMesh<dim> read_whole_mesh<dim>(const base::Comm&, const Case&, const std::string&); \
+  template CheckedMesh<dim> read_mesh<dim>(const base::Comm&, const Case&, const std::string&);
+
+PERIMORPH_INSTANTIATE(2)
+PERIMORPH_INSTANTIATE(3)
 
 }  // namespace perimorph::cases

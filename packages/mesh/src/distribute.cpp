@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 #include "nearby_elements.hpp"
@@ -51,11 +52,18 @@ std::vector<int> element_owners(const base::Comm& comm, const Mesh<dim>& part, c
   return partition<dim>(comm, ids, centroids, has_weights ? weights : std::vector<double>(ids.size(), 1.));
 }
 
+/// Of the part's nodes, without those of images, which are the last.
+template <int dim>
+std::vector<GlobalId> real_node_ids(const Mesh<dim>& part) {
+  const auto is_image = [&](GlobalId id) { return id >= part.n_global_nodes; };
+  return {part.node_ids.begin(), std::find_if(part.node_ids.begin(), part.node_ids.end(), is_image)};
+}
+
 /// The lowest rank that is to own an element around each local node. Collective.
 template <int dim>
 std::vector<int> node_owners(const Directory& nodes, const Mesh<dim>& part, const std::vector<int>& element_owners) {
   constexpr int none = std::numeric_limits<int>::max();
-  std::vector<int> owners(part.n_nodes(), none), lowest(nodes.n_here(), none);
+  std::vector<int> owners(nodes.n_own(), none), lowest(nodes.n_here(), none);
   for (int e = 0; e < part.n_owned_elements; ++e) {
     for (int c = 0; c < part.n_corners(e); ++c) {
       int& owner = owners[part.corners_of(e)[c]];
@@ -78,7 +86,7 @@ template <int dim>
 NodeSets complete_node_sets(const Directory& nodes, const Mesh<dim>& names, const Mesh<dim>& part) {
   NodeSets complete;
   for (const auto& [name, nobody] : names.node_sets) {
-    std::vector<char> are_in(part.n_nodes(), 0), slice(nodes.n_here(), 0);
+    std::vector<char> are_in(nodes.n_own(), 0), slice(nodes.n_here(), 0);
     if (const auto known = part.node_sets.find(name); known != part.node_sets.end()) {
       for (const int node : known->second) are_in[node] = 1;
     }
@@ -88,8 +96,8 @@ NodeSets complete_node_sets(const Directory& nodes, const Mesh<dim>& names, cons
     }
     are_in = nodes.answer_all(slice);
     auto& set = complete[name];
-    for (int node = 0; node < part.n_nodes(); ++node) {
-      if (are_in[node] != 0) set.push_back(node);
+    for (std::size_t node = 0; node < are_in.size(); ++node) {
+      if (are_in[node] != 0) set.push_back(static_cast<int>(node));
     }
   }
   return complete;
@@ -202,6 +210,15 @@ Mesh<dim> exchanged(const base::Comm& comm, const Mesh<dim>& part, const NodeSet
   return result;
 }
 
+template <int dim>
+void add_names(Mesh<dim>& part, const Mesh<dim>& names) {
+  part.block_names = names.block_names;
+  for (const auto& entry : names.node_sets) part.node_sets[entry.first];
+  for (const auto& entry : names.side_sets) part.side_sets[entry.first];
+  part.n_global_nodes = names.n_global_nodes;
+  part.n_global_elements = names.n_global_elements;
+}
+
 /// Nodes the forces on which are forces on nodes of this rank, per local node: its own, and those that hang on them.
 template <int dim>
 std::vector<char> moved_nodes(const Mesh<dim>& mesh) {
@@ -228,21 +245,33 @@ Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& part, double halo_
   const GlobalId n_owned = base::sum(comm, GlobalId{from.n_owned_elements});
   PERIMORPH_ASSERT(n_owned == names.n_global_elements, "{} of {} elements are owned", n_owned, names.n_global_elements);
 
-  const Directory nodes(comm, names.n_global_nodes, from.node_ids);
+  const Directory nodes(comm, names.n_global_nodes, real_node_ids(from));
   Owners owners;
   owners.elements = element_owners(comm, from, weights);
   owners.nodes = node_owners(nodes, from, owners.elements);
   const auto node_sets = complete_node_sets(nodes, names, from);
   const auto needed = needed_elements(comm, from, active_on(comm.getSize(), from, owners), halo_width);
   auto result = exchanged(comm, from, node_sets, owners, needed);
-
-  result.block_names = names.block_names;
-  for (const auto& entry : names.node_sets) result.node_sets[entry.first];
-  for (const auto& entry : names.side_sets) result.side_sets[entry.first];
-  result.n_global_nodes = names.n_global_nodes;
-  result.n_global_elements = names.n_global_elements;
+  add_names(result, names);
+  result.notes = from.notes;
   base::on_all_ranks(comm, [&] { check_consistency(result); });
   return result;
+}
+
+template <int dim>
+Mesh<dim> gather(const base::Comm& comm, const Mesh<dim>& part) {
+  const bool is_elsewhere = comm.getRank() != 0 && part.rank == comm.getRank() && part.n_owned_elements > 0;
+  if (base::max(comm, static_cast<GlobalId>(is_elsewhere)) == 0) return comm.getRank() == 0 ? part : Mesh<dim>();
+  const auto names = names_and_sizes(comm, part);
+  std::vector<std::vector<int>> needed(comm.getSize());
+  needed[0].resize(part.n_owned_elements);
+  std::iota(needed[0].begin(), needed[0].end(), 0);
+  const Owners all_on_root{std::vector<int>(part.n_owned_elements, 0), std::vector<int>(part.n_nodes(), 0)};
+  auto whole = exchanged(comm, part, part.node_sets, all_on_root, needed);
+  if (comm.getRank() != 0) return {};
+  add_names(whole, names);
+  whole.notes = part.notes;
+  return whole;
 }
 
 template <int dim>
@@ -259,6 +288,7 @@ std::vector<char> active_elements(const Mesh<dim>& mesh) {
 
 #define PERIMORPH_INSTANTIATE(dim)                                                                        \
   template Mesh<dim> distribute(const base::Comm&, const Mesh<dim>&, double, const std::vector<double>&); \
+  template Mesh<dim> gather(const base::Comm&, const Mesh<dim>&);                                         \
   template std::vector<char> active_elements(const Mesh<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -5,24 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "perimorph/mesh/extent.hpp"
+
 namespace perimorph::mesh {
 
 namespace {
 
 constexpr double tolerance = 1e-6;  // of the body's size
-
-/// Of some nodes on all ranks. Collective.
-template <int dim>
-Eigen::AlignedBox<double, dim> box_around(const base::Comm& comm, const Mesh<dim>& mesh,
-                                          const std::vector<int>& nodes) {
-  Eigen::AlignedBox<double, dim> box;
-  for (const int node : nodes) box.extend(mesh.coordinates[node]);
-  for (int c = 0; c < dim; ++c) {
-    box.min()[c] = -base::max(comm, -box.min()[c]);
-    box.max()[c] = base::max(comm, box.max()[c]);
-  }
-  return box;
-}
 
 /// A reflection across one or more planes.
 template <int dim>

@@ -1,6 +1,7 @@
 #include "pieces.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "perimorph/mesh/sorted_sides.hpp"
@@ -140,9 +141,23 @@ Mesh<dim> join(const std::vector<Mesh<dim>>& pieces, int rank) {
   return part;
 }
 
+template <int dim>
+Mesh<dim> own_elements(const Mesh<dim>& part) {
+  const Owners owners{std::vector<int>(part.n_owned_elements, part.rank), std::vector<int>(part.n_nodes(), part.rank)};
+  std::vector<int> all(part.n_owned_elements);
+  std::iota(all.begin(), all.end(), 0);
+  auto own = join<dim>({cut_out(part, part.node_sets, owners, all)}, part.rank);
+  own.block_names = part.block_names;
+  own.notes = part.notes;
+  own.n_global_nodes = part.n_global_nodes;
+  own.n_global_elements = part.n_global_elements;
+  return own;
+}
+
 #define PERIMORPH_INSTANTIATE(dim)                                                                       \
   template Mesh<dim> cut_out(const Mesh<dim>&, const NodeSets&, const Owners&, const std::vector<int>&); \
-  template Mesh<dim> join(const std::vector<Mesh<dim>>&, int);
+  template Mesh<dim> join(const std::vector<Mesh<dim>>&, int);                                           \
+  template Mesh<dim> own_elements(const Mesh<dim>&);
 
 PERIMORPH_INSTANTIATE(2)
 PERIMORPH_INSTANTIATE(3)

@@ -31,4 +31,9 @@ Mesh<dim> cut_out(const Mesh<dim>& part, const NodeSets& node_sets, const Owners
 template <int dim>
 Mesh<dim> join(const std::vector<Mesh<dim>>& pieces, int rank);
 
+/// The part without its halo. All that is left belongs to this rank; nodes that others have, too, come as if they did.
+/// Local.
+template <int dim>
+Mesh<dim> own_elements(const Mesh<dim>& part);
+
 }  // namespace perimorph::mesh

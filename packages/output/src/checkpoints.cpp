@@ -177,10 +177,11 @@ std::optional<io::Checkpoint> Checkpoints<dim>::start_of_increment() const {
 }
 
 template <int dim>
-void Checkpoints<dim>::identify(const mesh::Mesh<dim>& whole) {
+void Checkpoints<dim>::identify(const mesh::Mesh<dim>& part) {
+  const auto fingerprint = mesh::fingerprint(*comm_, part);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
-    mesh_identity_ = {whole.n_global_elements, whole.n_global_nodes, mesh::fingerprint(whole)};
+    mesh_identity_ = {part.n_global_elements, part.n_global_nodes, fingerprint};
     if (loaded_mesh_.empty() || loaded_mesh_ == mesh_identity_) return;
     const auto size = [](const std::vector<GlobalId>& mesh) { return std::pair(mesh.at(0), mesh.at(1)); };
     const auto here = size(mesh_identity_), there = size(loaded_mesh_);

@@ -9,6 +9,10 @@
 
 #include "example_meshes.hpp"
 #include "perimorph/base/errors.hpp"
+#include "perimorph/mesh/fingerprint.hpp"
+#include "perimorph/mesh/images.hpp"
+#include "perimorph/mesh/parts.hpp"
+#include "perimorph/mesh/pre_crack.hpp"
 
 namespace perimorph::mesh {
 namespace {
@@ -279,6 +283,157 @@ TYPED_TEST(Distribute, WhatOneRankKnowsOfANodeAllRanksLearn) {
   }
 
   expect_same_part(distribute(*parted.comm, part, horizon), parted.part);
+}
+
+TYPED_TEST(Distribute, ImagesLeaveNoTrace) {
+  constexpr int dim = TypeParam::value;
+  const Parted<dim> parted(many_cells<dim>());
+  auto part = parted.part;
+  SymmetryPlane plane{0, 0., {}};
+  for (int n = 0; n < part.n_nodes(); ++n) {
+    if (part.node_ids[n] % 7 == 0) plane.nodes.push_back(n);
+  }
+  add_images(part, {plane}, 1e3);
+  ASSERT_GE(part.n_elements(), 2 * parted.part.n_elements());
+
+  expect_same_part(distribute(*parted.comm, part, horizon), parted.part);
+}
+
+TYPED_TEST(Distribute, GatheredPartsAreTheWhole) {
+  constexpr int dim = TypeParam::value;
+  const Parted<dim> parted(many_cells<dim>());
+
+  for (const auto& part : {parted.part, parted.whole}) {
+    const auto again = gather(*parted.comm, part);
+    if (parted.comm->getRank() == 0) {
+      expect_same_part(again, parted.whole);
+    } else {
+      EXPECT_EQ(again.n_elements(), 0);
+    }
+  }
+}
+
+/// Straight through most of the grid between two rows of cells, or all of it.
+template <int dim>
+std::vector<CrackFacet<dim>> crack_through(const Mesh<dim>& whole, double share) {
+  Point<dim> corner = whole.coordinates.front(), other = corner;
+  for (const auto& x : whole.coordinates) {
+    corner = corner.cwiseMin(x);
+    other = other.cwiseMax(x);
+  }
+  constexpr int across = dim - 1;
+  const auto& levels = whole.coordinates;
+  const auto middle = std::min_element(levels.begin(), levels.end(), [&](const auto& a, const auto& b) {
+    const double height = 0.5 * (corner[across] + other[across]);
+    return std::abs(a[across] - height) < std::abs(b[across] - height);
+  });
+  corner[across] = other[across] = (*middle)[across];
+  other[0] = corner[0] + share * (other[0] - corner[0]);
+  if constexpr (dim == 2) return polyline({corner, other});
+  if constexpr (dim == 3) {
+    const Point<3> second(other[0], corner[1], corner[2]), fourth(corner[0], other[1], corner[2]);
+    return polygon({corner, second, other, fourth});
+  }
+}
+
+/// A regular grid in parts, and the same grid opened as a whole.
+template <int dim>
+struct Opened {
+  Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
+  Mesh<dim> whole = grid<dim>(many_cells<dim>());
+  Mesh<dim> part = distribute(*comm, whole, 0.);
+  int n_open_of_whole;
+  GlobalId n_open;
+
+  explicit Opened(double share) {
+    const auto crack = crack_through(whole, share);
+    n_open_of_whole = open_along<dim>(whole, crack);
+    n_open = open_along<dim>(*comm, part, crack);
+  }
+};
+
+TYPED_TEST(Distribute, PartsAreOpenedAsTheWhole) {
+  constexpr int dim = TypeParam::value;
+  for (const double share : {0.6, 1.}) {
+    const Opened<dim> opened(share);
+    ASSERT_GT(opened.n_open_of_whole, 0);
+    EXPECT_EQ(opened.n_open, opened.n_open_of_whole);
+    expect_same_part(distribute(*opened.comm, opened.part, horizon), distribute(*opened.comm, opened.whole, horizon));
+  }
+}
+
+TYPED_TEST(Distribute, AFingerprintDoesNotDependOnWhoHasWhat) {
+  constexpr int dim = TypeParam::value;
+  const Opened<dim> opened(0.6), closed(0.);
+  const auto fingerprint_of = [&](const Mesh<dim>& part) { return fingerprint(*opened.comm, part); };
+
+  EXPECT_EQ(fingerprint_of(opened.part), fingerprint_of(opened.whole));
+  EXPECT_EQ(fingerprint_of(closed.part), fingerprint_of(closed.whole));
+  EXPECT_NE(fingerprint_of(opened.whole), fingerprint_of(closed.whole));
+  auto moved = closed.whole, renamed = closed.whole, in_no_set = closed.whole, with_fewer_sides = closed.whole;
+  moved.coordinates[3][0] += 1e-9;
+  renamed.block_names[0] += "'";
+  in_no_set.node_sets.begin()->second.pop_back();
+  with_fewer_sides.side_sets.begin()->second.pop_back();
+  for (const auto& other : {moved, renamed, in_no_set, with_fewer_sides}) {
+    EXPECT_NE(fingerprint_of(other), fingerprint_of(closed.whole));
+  }
+}
+
+TYPED_TEST(Distribute, PartsOfTheBodyAreCountedWhicheverRanksTheyAreOn) {
+  constexpr int dim = TypeParam::value;
+  for (const double share : {0., 0.6, 1.}) {
+    const Opened<dim> opened(share);
+    for (const auto& part : {opened.whole, distribute(*opened.comm, opened.part, 0.)}) {
+      const auto [n_parts, n_hinges] = connections(*opened.comm, part);
+      EXPECT_EQ(n_parts, share == 1. ? 2 : 1);
+      EXPECT_EQ(n_hinges, 0);
+    }
+  }
+}
+
+/// Two blocks of cells that share one node, or in three dimensions the nodes of an edge.
+template <int dim>
+Mesh<dim> diagonal_blocks() {
+  const Mesh<dim> all = grid<dim>(many_cells<dim>());
+  Point<dim> middle = Point<dim>::Zero();
+  for (const auto& x : all.coordinates) middle += x / all.n_nodes();
+  const auto node = std::min_element(all.coordinates.begin(), all.coordinates.end(), [&](const auto& a, const auto& b) {
+    return (a - middle).norm() < (b - middle).norm();
+  });
+  Mesh<dim> some = all;
+  some.types.clear();
+  some.blocks.clear();
+  some.corners.clear();
+  some.first_corner = {0};
+  for (int e = 0; e < all.n_elements(); ++e) {
+    const Point<dim> from = centroid(all, e) - *node;
+    if ((from[0] > 0.) != (from[1] > 0.)) continue;
+    some.types.push_back(all.types[e]);
+    some.blocks.push_back(all.blocks[e]);
+    some.corners.insert(some.corners.end(), all.corners_of(e), all.corners_of(e) + all.n_corners(e));
+    some.first_corner.push_back(static_cast<int>(some.corners.size()));
+  }
+  some.n_owned_elements = some.n_elements();
+  some.n_global_elements = some.n_elements();
+  some.element_ids.resize(some.n_elements());
+  some.element_owners.resize(some.n_elements());
+  for (auto& entry : some.side_sets) entry.second.clear();
+  find_boundary(some);
+  return some;
+}
+
+TYPED_TEST(Distribute, HingesAreCountedAndConnectNothing) {
+  constexpr int dim = TypeParam::value;
+  const auto comm = Tpetra::getDefaultComm();
+  const auto whole = diagonal_blocks<dim>();
+  const auto n_hinges = static_cast<GlobalId>(hinges(whole).size());
+  ASSERT_EQ(n_hinges, dim == 2 ? 1 : 7);
+  for (const auto& part : {whole, distribute(*comm, whole, 0.)}) {
+    const auto found = connections(*comm, part);
+    EXPECT_EQ(found.n_parts, 2);
+    EXPECT_EQ(found.n_hinges, n_hinges);
+  }
 }
 
 TYPED_TEST(Distribute, EqualCostsGiveEqualParts) {

@@ -34,6 +34,8 @@ class Directory {
 
   /// The first item of a rank's slice; of n_ranks: n.
   GlobalId begin(int rank) const { return n_ * rank / comm_.getSize(); }
+  /// How many items this rank has copies of.
+  std::size_t n_own() const { return holders_.size(); }
   /// How many items are in this rank's slice.
   std::size_t n_here() const { return static_cast<std::size_t>(begin(comm_.getRank() + 1) - begin(comm_.getRank())); }
   /// The rank in whose slice an item is.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/parallel.hpp"
 #include "perimorph/cases/case.hpp"
 #include "perimorph/mesh/mesh.hpp"
 #include "perimorph/mesh/pre_crack.hpp"
@@ -36,5 +37,10 @@ std::vector<base::Point<dim>> places_of(const Probe& probe);
 /// @throws UserError if it cannot be read.
 template <int dim>
 mesh::Mesh<dim> read_closed_mesh(const Case& input, const std::string& folder);
+
+/// The same in parts, as mesh::distribute() makes them, without a halo's width. Collective. @throws UserError, as
+/// above, on all ranks.
+template <int dim>
+mesh::Mesh<dim> read_closed_parts(const base::Comm& comm, const Case& input, const std::string& folder);
 
 }  // namespace perimorph::cases

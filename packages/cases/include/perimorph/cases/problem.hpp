@@ -23,7 +23,7 @@ void check_compressive_strengths(const Case& input, const model::Problem<dim>& p
 
 template <int dim>
 struct CheckedMesh {
-  mesh::Mesh<dim> whole;              ///< on rank 0, empty on others
+  mesh::Mesh<dim> mesh;               ///< whole on rank 0 and empty on others, or what each rank has of it
   std::vector<std::string> warnings;  ///< of what can be computed, but is hardly meant so; on rank 0
 };
 
@@ -32,5 +32,11 @@ struct CheckedMesh {
 /// @throws UserError, on all ranks.
 template <int dim>
 CheckedMesh<dim> read_whole_mesh(const base::Comm& comm, const Case& input, const std::string& folder);
+
+/// The same of a mesh that no rank holds as a whole, if its file can be read in parts, nothing is wrong with it,
+/// nothing is to be said, and the case leaves it as it is; otherwise the whole mesh. Collective. @throws UserError, as
+/// above.
+template <int dim>
+CheckedMesh<dim> read_mesh(const base::Comm& comm, const Case& input, const std::string& folder);
 
 }  // namespace perimorph::cases

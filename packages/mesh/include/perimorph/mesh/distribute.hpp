@@ -26,6 +26,12 @@ template <int dim>
 Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& part, double halo_width,
                      const std::vector<double>& weights = {});
 
+/// The whole mesh on rank 0, an empty one elsewhere: for what is seldom and needs all of it, such as saying what is
+/// wrong with a mesh. Collective.
+/// @param part what distribute() has made, or a whole mesh on rank 0
+template <int dim>
+Mesh<dim> gather(const base::Comm& comm, const Mesh<dim>& part);
+
 /// Per local element, (n_elements): owned here, or around a node owned here, or around one that hangs on such a node.
 /// The rows of this rank's matrix come from these.
 template <int dim>

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "perimorph/base/parallel.hpp"
 #include "perimorph/mesh/mesh.hpp"
 
 // Which elements of a body hold together. They do by a side that they share. Those that share only a node, or in three
@@ -25,6 +26,16 @@ std::vector<Hinge> hinges(const Mesh<dim>& whole);
 /// @param hinges of this mesh, or none, for parts that hinges connect
 template <int dim>
 std::vector<int> parts_of_elements(const Mesh<dim>& mesh, const std::vector<Hinge>& hinges = {});
+
+/// How a mesh holds together, whichever rank has what of it.
+struct Connections {
+  GlobalId n_parts;  ///< that share no nodes but hinges
+  GlobalId n_hinges;
+};
+
+/// Collective. @param part what distribute() has made, or a whole mesh on rank 0
+template <int dim>
+Connections connections(const base::Comm& comm, const Mesh<dim>& part);
 
 /// Nodes of the boundary of a whole mesh that lie at the same place, within 1e-6 of the element's radius, in pairs:
 /// where a body is open although it looks closed. Ascending. Local.

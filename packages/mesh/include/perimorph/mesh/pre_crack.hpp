@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "perimorph/base/parallel.hpp"
 #include "perimorph/mesh/mesh.hpp"
 
 namespace perimorph::mesh {
@@ -25,12 +26,18 @@ std::vector<CrackFacet<3>> polygon(const std::vector<Point<3>>& corners);
 /// @param radius of the disc, > 0, [length]
 std::vector<CrackFacet<3>> disc(const Point<3>& center, const Point<3>& normal, double radius);
 
-/// Opens a whole mesh along a pre-crack: where the crack runs along sides of elements, the nodes strictly inside it
-/// (and on the body's boundary) are doubled so that the two sides part; its tips stay closed. Node sets get the new
-/// nodes too, the boundary the new sides. Sides count as on the crack if all corners lie on it within 1e-6 of their
-/// length. Local; called on rank 0.
+/// Opens a mesh along a pre-crack: where the crack runs along sides of elements, the nodes strictly inside it (and on
+/// the body's boundary) are doubled so that the two sides part; its tips stay closed. Node sets get the new nodes too,
+/// the boundary the new sides. Sides count as on the crack if all corners lie on it within 1e-6 of their length. New
+/// nodes have the same numbers whichever rank has what. Collective.
+/// @param part a whole mesh on rank 0, or what distribute() has made of it; of that only the rank's own elements are
+///        left, for distribute() to give it another halo
 /// @param crack the pre-crack's facets, (n), [length]
 /// @return how many sides were opened; 0 if the crack cuts through elements
+template <int dim>
+GlobalId open_along(const base::Comm& comm, Mesh<dim>& part, const std::vector<CrackFacet<dim>>& crack);
+
+/// The same of a whole mesh. Local; called on rank 0.
 template <int dim>
 int open_along(Mesh<dim>& whole, const std::vector<CrackFacet<dim>>& crack);
 

@@ -29,9 +29,10 @@ class Checkpoints {
   /// @throws UserError if there are only others, or if it belongs to another case: names what differs.
   std::optional<io::Checkpoint> load();
 
-  /// Which mesh this run has. The mesh is whole on rank 0. Collective.
+  /// Which mesh this run has. Collective.
+  /// @param part a whole mesh on rank 0, or what each rank has of it
   /// @throws UserError if the checkpoint that was loaded belongs to another.
-  void identify(const mesh::Mesh<dim>& whole);
+  void identify(const mesh::Mesh<dim>& part);
 
   /// Where the run is: loaded or remembered last. Local.
   const fracture::LoopPosition& position() const { return position_; }
