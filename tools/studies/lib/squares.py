@@ -1,7 +1,8 @@
 """What the studies share that measure how cost grows: a square of n x n elements of size 1, or a cube of n x n x n, held
 at the bottom, with a traction on the top, in three models: finite elements only, hybrid with a peridynamic zone of a
-twentieth of the area or volume (as around a crack from the left edge or face to the middle), all peridynamic. Horizon 3 unless
-the caller says otherwise, l = 1/5. Nothing breaks."""
+twentieth of the area or volume (as around a crack from the left edge or face to the middle), all peridynamic; and "small zone":
+finite elements with a zone of three horizons in the middle. Horizon 3 unless the caller says otherwise, l = 1/5. Nothing
+breaks."""
 
 import os
 
@@ -44,6 +45,8 @@ def zone(model, n, dimension, horizon):
     """Its seeds."""
     if model == "FE only":
         return {}
+    if model == "small zone":
+        return {"zone": {"Center": [0.5 * n] * dimension, "Inner Radius": 2.0 * horizon, "Outer Radius": 3.0 * horizon}}
     if model == "all peridynamic":
         return {"zone": {"Shape": "Everything"}}
     return {"zone": {"Shape": "Box", "Lower Corner": [-1, 0.45 * n, -1][:dimension],
