@@ -5,10 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "mapped_file.hpp"
+
 namespace perimorph::mesh_files {
 
 /// A place in the text of a mesh file, which hands out the numbers and lines that follow it. Every error names the file
-/// and the line (the byte in binary data).
+/// and the line (the byte in binary data). Only what is passed on the way is in memory, and of binary data only what is
+/// read.
 class FileCursor {
  public:
   /// @param wanted what the file should be, "a gmsh mesh"
@@ -47,6 +50,10 @@ class FileCursor {
   std::int64_t next_long() { return binary_ ? raw<std::int64_t>() : ascii_long(); }
   double next_real();
 
+  /// Passes over numbers, in binary data without looking at them.
+  /// @param bytes of each in binary data
+  void skip_numbers(std::size_t count, std::size_t bytes);
+
   /// Numbers that are text even in binary files.
   int ascii_int();
   std::int64_t ascii_long();
@@ -80,7 +87,8 @@ class FileCursor {
   }
 
   std::string file_;
-  std::string text_;
+  MappedFile mapped_;
+  std::string_view text_;
   std::size_t position_ = 0;
   bool binary_ = false;
 };
