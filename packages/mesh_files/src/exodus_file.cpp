@@ -72,8 +72,19 @@ class Reader {
   }
 
   /// Local.
-  void read_nodes_and_blocks() {
-    read_nodes();
+  void read_nodes() {
+    const auto axes = file_.coordinates(own_nodes_);
+    result_.coordinates.reserve(result_.node_tags.size());
+    for (std::size_t i = 0; i < result_.node_tags.size(); ++i) {
+      result_.coordinates.push_back({axes[0][i], axes[1][i], axes[2][i]});
+      for (const double x : result_.coordinates.back()) {
+        if (!std::isfinite(x)) file_.fail("a coordinate of node {} is {}", result_.node_tags[i], x);
+      }
+    }
+  }
+
+  /// Local.
+  void read_blocks() {
     list_blocks();
     for (Block& block : blocks_) {
       if (block.has_body) read_elements(block);
@@ -139,18 +150,7 @@ class Reader {
     std::int64_t number;  ///< of the side, as in the file
   };
 
-  // ---- nodes and elements ----
-
-  void read_nodes() {
-    const auto axes = file_.coordinates(own_nodes_);
-    result_.coordinates.reserve(result_.node_tags.size());
-    for (std::size_t i = 0; i < result_.node_tags.size(); ++i) {
-      result_.coordinates.push_back({axes[0][i], axes[1][i], axes[2][i]});
-      for (const double x : result_.coordinates.back()) {
-        if (!std::isfinite(x)) file_.fail("a coordinate of node {} is {}", result_.node_tags[i], x);
-      }
-    }
-  }
+  // ---- elements ----
 
   void list_blocks() {
     std::int64_t first = 0;
@@ -383,7 +383,8 @@ void read_all_shares(const std::string& file, int n_ranks) {
   for (int rank = 0; rank < n_ranks; ++rank) {
     Reader reader(file, {rank, n_ranks});
     reader.read_numbers(alone);
-    reader.read_nodes_and_blocks();
+    reader.read_nodes();
+    reader.read_blocks();
     if (n_ranks == 1) reader.choose_side_numbering(alone);
     if (rank == 0) reader.read_sets();  // of which all ranks read the same
   }
@@ -412,7 +413,8 @@ MeshFile read_exodus_file(const base::Comm& comm, const std::string& file) {
   std::optional<Reader> reader;
   base::on_all_ranks(comm, [&] { reader.emplace(file, share); });
   reader->read_numbers(comm);
-  base::on_all_ranks(comm, [&] { reader->read_nodes_and_blocks(); });
+  base::on_all_ranks(comm, [&] { reader->read_nodes(); });
+  base::on_all_ranks(comm, [&] { reader->read_blocks(); });
   reader->choose_side_numbering(comm);
   base::on_all_ranks(comm, [&] { reader->read_sets(); });
   return reader->put_node_numbers(comm);
