@@ -70,7 +70,12 @@ FileCursor::FileCursor(const std::string& file, const std::string& wanted)
 }
 
 void FileCursor::skip_white_space() {
-  position_ = std::min(text_.find_first_not_of(white_space, position_), text_.size());
+  move_to(std::min(text_.find_first_not_of(white_space, position_), text_.size()));
+}
+
+void FileCursor::release_what_is_behind() {
+  mapped_.release(released_, position_);
+  released_ = position_;
 }
 
 bool FileCursor::at_end() {
@@ -80,7 +85,7 @@ bool FileCursor::at_end() {
 
 std::string FileCursor::raw_line() {
   const std::size_t end = std::min(text_.find('\n', position_), text_.size()), begin = position_;
-  position_ = std::min(end + 1, text_.size());
+  move_to(std::min(end + 1, text_.size()));
   const bool windows = end > begin && text_[end - 1] == '\r';
   return std::string(text_.substr(begin, end - begin - (windows ? 1 : 0)));
 }
@@ -109,7 +114,7 @@ void FileCursor::skip_to_line(const std::string& words) {
   const std::size_t found =
       text_.compare(position_, words.size(), words) == 0 ? position_ : text_.find('\n' + words, position_);
   if (found == std::string::npos) fail(fmt::format("{} is missing: the file is truncated or damaged", excerpt(words)));
-  position_ = found;
+  move_to(found);
   skip_white_space();
 }
 
@@ -122,7 +127,7 @@ std::string_view FileCursor::token() {
   if (at_end()) fail_truncated();
   const std::size_t end = std::min(text_.find_first_of(white_space, position_), text_.size());
   const std::string_view word = text_.substr(position_, end - position_);
-  position_ = end;
+  move_to(end);
   return word;
 }
 
@@ -157,7 +162,7 @@ double FileCursor::ascii_real() {
 void FileCursor::skip_line_break() {
   const std::size_t end = text_.find('\n', position_);
   if (end == std::string::npos) fail_truncated();
-  position_ = end + 1;
+  move_to(end + 1);
 }
 
 void FileCursor::skip_numbers(std::size_t count, std::size_t bytes) {
@@ -166,7 +171,7 @@ void FileCursor::skip_numbers(std::size_t count, std::size_t bytes) {
     return;
   }
   const std::size_t most = remaining() / bytes;
-  position_ += std::min(count, most) * bytes;
+  move_to(position_ + std::min(count, most) * bytes);
   if (count > most) fail_truncated();
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "file_cursor.hpp"
+#include "gmsh_elements.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::mesh_files {
@@ -18,22 +19,6 @@ namespace {
 
 constexpr int no_groups = 0;       // index into MeshFile::group_lists
 constexpr int any_dimension = -1;  // of a name in 2.0
-
-/// A kind of elements: its shape, and how many nodes it has, the corners first.
-struct Kind {
-  Shape shape;
-  int n_nodes;
-};
-
-/// By gmsh's numbers of kinds of elements (its manual, "Node ordering" and "MSH file format").
-const std::map<int, Kind> kinds = {
-    {15, {Shape::point, 1}},        {1, {Shape::line, 2}},        {8, {Shape::line, 3}},
-    {2, {Shape::triangle, 3}},      {9, {Shape::triangle, 6}},    {3, {Shape::quadrangle, 4}},
-    {10, {Shape::quadrangle, 9}},   {16, {Shape::quadrangle, 8}}, {4, {Shape::tetrahedron, 4}},
-    {11, {Shape::tetrahedron, 10}}, {5, {Shape::hexahedron, 8}},  {12, {Shape::hexahedron, 27}},
-    {17, {Shape::hexahedron, 20}},  {6, {Shape::wedge, 6}},       {13, {Shape::wedge, 18}},
-    {18, {Shape::wedge, 15}},       {7, {Shape::pyramid, 5}},     {14, {Shape::pyramid, 14}},
-    {19, {Shape::pyramid, 13}}};
 
 const char* const advice =
     "mesh it with gmsh -2 (or -3), and put what is to be computed into a physical surface (or volume)";
@@ -50,6 +35,15 @@ struct Parts {
   std::array<Range, 4> elements;
 };
 constexpr Parts nothing = {}, all = {everything, {everything, everything, everything, everything}};
+
+/// Of nodes, and of elements of dimension 0 to 3.
+using Counts = std::vector<std::int64_t>;
+
+Parts share_of(const Counts& counts, const Share& share) {
+  Parts parts = {share.of(counts[0]), {}};
+  for (std::size_t d = 0; d < 4; ++d) parts.elements[d] = share.of(counts[d + 1]);
+  return parts;
+}
 
 /// Reads one file from front to back.
 class Reader {
@@ -73,16 +67,11 @@ class Reader {
     return std::move(result_);
   }
 
-  /// Of what has been read.
-  Parts share_of_all(const Share& share) const {
-    Parts parts = {share.of(n_nodes_), {}};
-    for (std::size_t d = 0; d < 4; ++d) parts.elements[d] = share.of(n_elements_[d]);
-    return parts;
-  }
-
-  bool is_binary_by_blocks() {
-    read_format();
-    return cursor_.binary() && version_ >= 40;
+  /// Of what has been read or passed over.
+  Counts counts() const {
+    Counts counts = {n_nodes_};
+    counts.insert(counts.end(), n_elements_.begin(), n_elements_.end());
+    return counts;
   }
 
  private:
@@ -351,7 +340,8 @@ class Reader {
     const int groups = list_of_entity(entity);
     const auto n = static_cast<std::int64_t>(cursor_.checked(cursor_.next_long(), 2, 8));
     if (n == 0) return;
-    const Kind& kind = kinds.count(number_of_kind) > 0 ? kinds.at(number_of_kind) : kind_of(next_tag(), number_of_kind);
+    const GmshKind& kind =
+        find_kind(number_of_kind) == nullptr ? kind_of(next_tag(), number_of_kind) : *find_kind(number_of_kind);
     const int dimension_of_kind = dimension(kind.shape);
     lists_in_use_.insert({dimension_of_kind, groups});
     const Range wanted = Range{0, n}.overlap(wanted_.elements[dimension_of_kind].from(n_elements_[dimension_of_kind]));
@@ -409,7 +399,7 @@ class Reader {
   void read_element_3() {
     const int tag = cursor_.next_int(), number_of_kind = cursor_.next_int(), entity = cursor_.next_int();
     const int n_numbers = cursor_.next_int();
-    const Kind& kind = kind_of(tag, number_of_kind);
+    const GmshKind& kind = kind_of(tag, number_of_kind);
     read_or_skip_corners(tag, kind, list_of_entity({dimension(kind.shape), entity}));
     for (int n = n_numbers - kind.n_nodes; n > 0; --n) cursor_.next_int();
   }
@@ -442,7 +432,7 @@ class Reader {
     read_or_skip_corners(number, kind_of(number, number_of_kind), list_of_group(group));
   }
 
-  void read_or_skip_corners(std::int64_t tag, const Kind& kind, int groups) {
+  void read_or_skip_corners(std::int64_t tag, const GmshKind& kind, int groups) {
     const int dimension_of_kind = dimension(kind.shape);
     lists_in_use_.insert({dimension_of_kind, groups});
     const bool is_wanted = wanted_.elements[dimension_of_kind].has(n_elements_[dimension_of_kind]++);
@@ -494,16 +484,15 @@ class Reader {
     for (auto& x : point) x = cursor_.next_real();
   }
 
-  const Kind& kind_of(std::int64_t tag, int number_of_kind) const {
-    const auto kind = kinds.find(number_of_kind);
-    if (kind != kinds.end()) return kind->second;
+  const GmshKind& kind_of(std::int64_t tag, int number_of_kind) const {
+    if (const GmshKind* kind = find_kind(number_of_kind)) return *kind;
     cursor_.fail(
         fmt::format("element {} is of gmsh's kind {}; allowed are triangles and quadrangles in 2D, tetrahedra, "
                     "pyramids, prisms and hexahedra in 3D, of first or second order (Mesh.ElementOrder)",
                     tag, number_of_kind));
   }
 
-  void read_corners(std::int64_t tag, const Kind& kind, int groups) {
+  void read_corners(std::int64_t tag, const GmshKind& kind, int groups) {
     result_.begin_element(tag, kind.shape, groups);
     const int n_corners = n_nodes(kind.shape);
     for (int i = 0; i < n_corners; ++i) result_.element_nodes.push_back(next_tag());
@@ -556,21 +545,31 @@ class Reader {
   std::map<int, int> list_of_group_;  // 2.x
 };
 
+Counts counts_of(const std::string& file) {
+  Reader reader(file, nothing);
+  reader.read();
+  return reader.counts();
+}
+
 }  // namespace
 
 MeshFile read_gmsh_file(const std::string& file, const Share& share) {
-  if (share.is_whole()) return Reader(file, all).read();
-  Reader counting(file, nothing);
-  counting.read();
-  return Reader(file, counting.share_of_all(share)).read();
+  return Reader(file, share.is_whole() ? all : share_of(counts_of(file), share)).read();
 }
 
-bool is_binary_by_blocks(const std::string& file) {
-  try {
-    return Reader(file, nothing).is_binary_by_blocks();
-  } catch (const base::UserError&) {
-    return false;
+MeshFile read_gmsh_file(const base::Comm& comm, const std::string& file) {
+  const Share share = {comm.getRank(), comm.getSize()};
+  Parts wanted = all;
+  if (!share.is_whole()) {
+    Counts counts;
+    base::on_all_ranks(comm, [&] {
+      if (share.rank == 0) counts = counts_of(file);
+    });
+    wanted = share_of(base::gather_on_all(comm, counts), share);
   }
+  MeshFile part;
+  base::on_all_ranks(comm, [&] { part = Reader(file, wanted).read(); });
+  return part;
 }
 
 }  // namespace perimorph::mesh_files

@@ -32,4 +32,10 @@ MappedFile::~MappedFile() {
   if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());
 }
 
+void MappedFile::release(std::size_t begin, std::size_t end) const {
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t first = (begin + page - 1) / page * page, last = end / page * page;
+  if (first < last) madvise(const_cast<char*>(bytes_.data()) + first, last - first, MADV_DONTNEED);
+}
+
 }  // namespace perimorph::mesh_files

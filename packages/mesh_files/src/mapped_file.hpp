@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,9 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
 
   std::string_view bytes() const { return bytes_; }
+
+  /// Takes bytes out of memory until they are looked at again. Local.
+  void release(std::size_t begin, std::size_t end) const;
 
  private:
   std::string_view bytes_;

@@ -22,16 +22,14 @@ MeshFormat agreed_format(const base::Comm& comm, const std::string& file) {
 
 bool can_be_sliced(const std::string& file) {
   const MeshFormat format = format_of(file);
-  return format == MeshFormat::exodus || (format == MeshFormat::gmsh && is_binary_by_blocks(file));
+  return format == MeshFormat::exodus || format == MeshFormat::gmsh;
 }
 
 MeshFile read_slice(const base::Comm& comm, const std::string& file) {
   const MeshFormat format = agreed_format(comm, file);
   if (format == MeshFormat::exodus) return read_exodus_file(comm, file);
   PERIMORPH_ASSERT(format == MeshFormat::gmsh, "{} is of a format that cannot be sliced", file);
-  MeshFile slice;
-  base::on_all_ranks(comm, [&] { slice = read_gmsh_file(file, {comm.getRank(), comm.getSize()}); });
-  return slice;
+  return read_gmsh_file(comm, file);
 }
 
 }  // namespace perimorph::mesh_files

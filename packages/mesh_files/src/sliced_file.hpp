@@ -5,7 +5,9 @@
 
 namespace perimorph::mesh_files {
 
-/// Whether read_slice() can read a file: Exodus, and binary MSH 4.0 and 4.1. False, too, for what is no mesh. Local.
+/// Whether read_slice() can read a file: Exodus and MSH. Damaged ones, too, of which it says what is wrong. Of binary
+/// MSH 4.1 and of Exodus a slice takes a part of the time of the whole; of other MSH each rank goes through all, and
+/// keeps its slice. Local.
 bool can_be_sliced(const std::string& file);
 
 /// This rank's slice of a mesh file that can be sliced: about as many nodes, and elements of each dimension, as on any

@@ -82,12 +82,11 @@ TEST(Shares, TheOwnerOfAPlaceIsTheRankThatHasItInItsShare) {
 }
 
 TEST(Shares, WhichFilesCanBeSliced) {
-  EXPECT_TRUE(can_be_sliced(meshed(structured_plate, 2, "-format msh41 -bin", "binary")));
-  EXPECT_FALSE(can_be_sliced(meshed(structured_plate, 2, "-format msh41", "text")));
-  EXPECT_FALSE(can_be_sliced(meshed(structured_plate, 2, "-format msh22 -bin", "old")));
+  EXPECT_TRUE(can_be_sliced(written("mesh.msh", two_squares_4_1)));
+  EXPECT_TRUE(can_be_sliced(written("mesh.msh", two_squares_2_2)));
   EXPECT_FALSE(can_be_sliced(written("mesh.inp", "*NODE\n")));
-  EXPECT_FALSE(can_be_sliced(written("damaged.msh", "$MeshFormat\n4.1 1 8\n")));
-  EXPECT_FALSE(can_be_sliced("nowhere.msh"));
+  EXPECT_FALSE(can_be_sliced(written("mesh.cdb", "/PREP7\n")));
+  EXPECT_FALSE(can_be_sliced("nowhere"));
 }
 
 }  // namespace

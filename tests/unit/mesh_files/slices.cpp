@@ -111,6 +111,14 @@ TEST(Slices, OfBinaryMshFilesAreTheWhole) {
   }
 }
 
+TEST(Slices, OfMshTextsAreTheWhole) {
+  for (const std::string& text : {two_squares_2_2, two_squares_4_1}) {
+    const std::string file = shared_file("mesh.msh");
+    write_on_rank_0([&] { written(std::filesystem::path(file).filename(), text); });
+    expect_slices_to_be_the_whole(file, {1, 2});
+  }
+}
+
 // ---- Exodus ----
 
 constexpr std::array<int, 2> modes = {EX_CLOBBER | EX_LARGE_MODEL, EX_CLOBBER | EX_NETCDF4 | EX_NOCLASSIC};
