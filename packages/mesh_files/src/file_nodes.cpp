@@ -1,13 +1,13 @@
 #include "file_nodes.hpp"
 
 #include <Eigen/Core>
-#include <functional>
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "inquiry.hpp"
+#include "over_ranks.hpp"
 #include "perimorph/base/text.hpp"
-#include "shares.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -134,7 +134,8 @@ std::vector<char> FileNodes<dim>::are_between_corners() const {
   std::vector<char> are_between(ids_.size(), 0);
   if (sum(comm_, slice_.mid_nodes.size()) == 0) return are_between;
   std::vector<std::int64_t> tags = slice_.mid_nodes;
-  sort_unique(tags, std::less<>());
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
   std::vector<GlobalId> places = places_of(tags);
   places.erase(std::remove(places.begin(), places.end(), none), places.end());
   const Inquiry<GlobalId> telling(comm_, holders_of(places), places);

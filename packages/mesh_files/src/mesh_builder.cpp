@@ -8,6 +8,7 @@
 
 #include "file_groups.hpp"
 #include "file_nodes.hpp"
+#include "over_ranks.hpp"
 #include "part_sides.hpp"
 #include "perimorph/base/text.hpp"
 #include "perimorph/mesh/distribute.hpp"
@@ -15,7 +16,6 @@
 #include "remarks.hpp"
 #include "repeated_nodes.hpp"
 #include "set_builder.hpp"
-#include "shares.hpp"
 
 namespace perimorph::mesh_files {
 

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <map>
 
+#include "over_ranks.hpp"
 #include "perimorph/base/directory.hpp"
-#include "shares.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -27,6 +27,13 @@ int local_index(const std::vector<GlobalId>& ids, int n_owned, GlobalId id) {
     if (found != end && *found == id) return static_cast<int>(found - ids.begin());
   }
   return -1;
+}
+
+template <class T, class Less>
+void sort_unique(std::vector<T>& items, Less less) {
+  std::sort(items.begin(), items.end(), less);
+  const auto same = [&](const T& a, const T& b) { return !less(a, b) && !less(b, a); };
+  items.erase(std::unique(items.begin(), items.end(), same), items.end());
 }
 
 template <int dim>

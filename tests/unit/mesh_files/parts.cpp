@@ -24,8 +24,11 @@ using testing::HasSubstr;
 /// A file that all ranks read as a whole, under the same name; rank 0 makes it.
 template <class Read>
 MeshFile read_by_all(const base::Comm& comm, const Read& read, const std::function<std::string()>& make) {
-  const std::string file = base::broadcast(comm, comm.getRank() == 0 ? make() : "");
-  return read(file);
+  std::string file;
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() == 0) file = make();
+  });
+  return read(base::broadcast(comm, file));
 }
 
 MeshFile gmsh_text(const base::Comm& comm, const std::string& text) {
@@ -158,6 +161,41 @@ TEST_F(Parts, SeveralBlocksBothKindsAndAnInnerSet) {
 
 TEST_F(Parts, Solids) { expect_the_same_in_parts<3>(*comm, gmsh_geometry(*comm, extruded_block, 3)); }
 
+const std::string two_boxes = R"(
+SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1}; Box(2) = {1, 0, 0, 1, 1, 1};
+BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+Mesh.MeshSizeMax = 0.25;
+Physical Volume("west") = {1}; Physical Volume("east") = {2};
+Physical Surface("all") = Surface{:}; Physical Surface("some") = {1, 3, 8};
+Physical Curve("edges") = Curve{:}; Physical Point("corners") = Point{:};
+)";
+
+/// Two blocks with all their faces, edges and corners in groups, in an order that has nothing to do with
+/// places.
+TEST_F(Parts, ManyTetrahedraInAnyOrder) {
+  MeshFile file = gmsh_geometry(*comm, two_boxes, 3);
+  MeshFile shuffled = file;
+  shuffled.element_tags.clear();
+  shuffled.shapes.clear();
+  shuffled.element_groups.clear();
+  shuffled.first_node = {0};
+  shuffled.element_nodes.clear();
+  const std::size_t n = file.n_elements(), n_nodes = file.node_tags.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t e = i * 7919 % n;
+    append_element(shuffled, file, e, file.element_groups[e]);
+  }
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    const std::size_t place = i * 7919 % n_nodes;
+    shuffled.node_tags[i] = 1000003 * file.node_tags[place];
+    shuffled.coordinates[i] = file.coordinates[place];
+  }
+  for (auto& tag : shuffled.element_nodes) tag *= 1000003;
+  ASSERT_TRUE(n % 7919 != 0 && n_nodes % 7919 != 0 && n > 500);
+  expect_the_same_in_parts<3>(*comm, shuffled);
+  EXPECT_EQ(build_mesh<3>(shuffled, 1.).side_sets.size(), 2U);
+}
+
 TEST_F(Parts, CoordinatesAreScaled) {
   expect_the_same_in_parts<3>(*comm, gmsh_geometry(*comm, extruded_block, 3), 1000.);
 }
@@ -165,6 +203,7 @@ TEST_F(Parts, CoordinatesAreScaled) {
 TEST_F(Parts, WithoutGroups) {
   MeshFile file = gmsh_geometry(*comm, structured_plate, 2);
   file.group_lists.assign(file.group_lists.size(), {});
+  file.group_names.clear();
   expect_the_same_in_parts<2>(*comm, file);
 }
 

@@ -42,11 +42,4 @@ inline std::size_t sum(const base::Comm& comm, std::size_t n) {
   return static_cast<std::size_t>(base::sum(comm, static_cast<GlobalId>(n)));
 }
 
-template <class T, class Less>
-void sort_unique(std::vector<T>& items, Less less) {
-  std::sort(items.begin(), items.end(), less);
-  const auto same = [&](const T& a, const T& b) { return !less(a, b) && !less(b, a); };
-  items.erase(std::unique(items.begin(), items.end(), same), items.end());
-}
-
 }  // namespace perimorph::mesh_files
