@@ -3,10 +3,11 @@
 #include "classic_header.hpp"
 
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <vector>
+
+#include "mapped_file.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -43,8 +44,8 @@ std::string number_at_end(const std::string& name) { return name.substr(name.fin
 
 class Header {
  public:
-  explicit Header(std::string bytes)
-      : bytes_(std::move(bytes)),
+  explicit Header(std::string_view bytes)
+      : bytes_(bytes),
         count_size_(bytes_[3] == 5 ? 8 : 4),
         offset_size_(bytes_[3] == 1 ? 4 : 8),
         position_(4 + count_size_) {}  // magic, numrecs
@@ -85,7 +86,7 @@ class Header {
     const std::uint64_t length = count();
     const std::size_t begin = position_;
     array(length, 1);
-    return fits_ ? bytes_.substr(begin, length) : "";
+    return fits_ ? std::string(bytes_.substr(begin, length)) : "";
   }
 
   void variable() {
@@ -142,7 +143,7 @@ class Header {
     return fits_ ? sizes[type] : 1;
   }
 
-  std::string bytes_;
+  std::string_view bytes_;
   std::size_t count_size_, offset_size_;
   std::size_t position_;
   bool fits_ = true;
@@ -156,9 +157,8 @@ class Header {
 }  // namespace
 
 bool is_valid_header(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  return bytes.size() >= 16 && Header(std::move(bytes)).is_valid();
+  const MappedFile mapped(file);
+  return mapped.bytes().size() >= 16 && Header(mapped.bytes()).is_valid();
 }
 
 }  // namespace perimorph::mesh_files

@@ -2,33 +2,28 @@
 
 #include "exodus_file.hpp"
 
-#include <exodusII.h>
-#include <fcntl.h>
-#include <unistd.h>
-
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
-#include "classic_header.hpp"
+#include "exodus_input.hpp"
 #include "exodus_types.hpp"
 #include "file_cursor.hpp"
 #include "perimorph/base/errors.hpp"
-#include "perimorph/base/text.hpp"
 #include "perimorph/mesh/element_type.hpp"
+#include "share_exchange.hpp"
 #include "trial.hpp"
 
 namespace perimorph::mesh_files {
 
 namespace {
 
-constexpr int longest_name = 256;
-constexpr int n_faces_of_shell = 2;          // its sides 1 and 2, before its edges
-constexpr std::int64_t best_packing = 1032;  // of HDF5's compression (deflate)
+constexpr int n_faces_of_shell = 2;  // its sides 1 and 2, before its edges
 
 // The limits for reading an HDF5 file: more than any sound one needs.
 constexpr std::size_t trial_memory = std::size_t{1} << 30U, trial_memory_per_byte = 100;
@@ -40,252 +35,189 @@ Shape side_shape(std::size_t n_nodes) {
   return n_nodes == 2 ? Shape::line : n_nodes == 3 ? Shape::triangle : Shape::quadrangle;
 }
 
-enum class Container { netcdf, hdf5 };
-
-/// What the first bytes say that the file is, before a library opens it.
-Container container_of(const std::string& file) {
-  std::string start(8, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(stream.gcount()));
-  if (start == "\x89HDF\r\n\x1a\n") return Container::hdf5;
-  const bool is_netcdf =
-      start.size() >= 4 && start.substr(0, 3) == "CDF" && (start[3] == 1 || start[3] == 2 || start[3] == 5);
-  if (is_netcdf && !is_valid_header(file)) {
-    throw base::UserError(
-        file + ": its header contradicts itself or announces more than the file holds: it is truncated or damaged");
+/// The corners of a side by its number in the file, {} if there is none of that number.
+std::vector<int> corners_of_side(Shape shape, std::int64_t side_number, bool is_shell) {
+  const auto& all = sides(element_type(shape));
+  const std::int64_t side = side_number - 1 - (is_shell ? n_faces_of_shell : 0);
+  if (is_shell && side < 0 && side_number >= 1) {
+    std::vector<int> corners(static_cast<std::size_t>(n_nodes(shape)));
+    std::iota(corners.begin(), corners.end(), 0);
+    return corners;
   }
-  if (is_netcdf) return Container::netcdf;
-  throw base::UserError(fmt::format("{}: not an Exodus file: it must begin as a netCDF or HDF5 file does, found \"{}\"",
-                                    file, excerpt(start)));
+  const bool is_there = side >= 0 && side < static_cast<std::int64_t>(all.size());
+  return is_there ? all[static_cast<std::size_t>(side)] : std::vector<int>();
 }
 
-/// Keeps a library's own messages off the terminal while it opens a file: they mislead when the file is damaged.
-class Silence {
- public:
-  Silence() : terminal_(dup(STDERR_FILENO)), nowhere_(open("/dev/null", O_WRONLY)) { dup2(nowhere_, STDERR_FILENO); }
-  ~Silence() {
-    dup2(terminal_, STDERR_FILENO);
-    close(terminal_);
-    close(nowhere_);
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  int terminal_, nowhere_;
-};
-
-/// An open Exodus file.
-class Handle {
- public:
-  explicit Handle(const std::string& file) {
-    int our_word_size = sizeof(double), file_word_size = 0;
-    float version = 0.F;
-    const Silence silence;
-    const std::string path = std::filesystem::absolute(file).lexically_normal();  // a relative one may be an address
-    id_ = ex_open(path.c_str(), EX_READ | EX_ALL_INT64_API, &our_word_size, &file_word_size, &version);
-  }
-  ~Handle() {
-    if (id_ >= 0) ex_close(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  int id() const { return id_; }
-
- private:
-  int id_ = -1;
-};
-
+/// Reads one rank's share of a file. Until put_node_numbers(), nodes of elements are places in the file, from 1.
 class Reader {
  public:
-  explicit Reader(const std::string& file) : file_(file), container_(container_of(file)), handle_(file) {
+  Reader(const std::string& file, const Share& share)
+      : file_(file), share_(share), own_nodes_(share.of(file_.n_nodes())) {
     result_.name = file;
     result_.advice = advice;
   }
 
-  MeshFile read() {
-    if (handle_.id() < 0) fail("the file cannot be opened: it is truncated or damaged, or holds no Exodus data");
-    read_sizes();
-    read_nodes();
-    read_blocks();
-    read_side_sets();
-    read_node_sets();
-    return std::move(result_);
-  }
-
- private:
-  static constexpr int passed_over = -1;
-
-  /// How a block's plane elements number their sides.
-  struct SideNumbering {
-    std::string block;
-    int dimension;  ///< of its elements
-    bool is_shell;
-  };
-
-  struct Set {
-    std::int64_t id;
-    std::string name;
-    std::vector<std::int64_t> entries, extra;  ///< nodes; or elements and their sides; from 1
-  };
-
-  template <class... Arguments>
-  [[noreturn]] void fail(fmt::format_string<Arguments...> what, Arguments&&... arguments) const {
-    throw base::UserError(file_ + ": " + fmt::format(what, std::forward<Arguments>(arguments)...));
-  }
-
-  /// A status below 0 is an error, one above a warning.
-  void check(int status, const std::string& what) const {
-    if (status < 0) fail("the {} cannot be read: the file is truncated or damaged", what);
-  }
-
-  /// A count, if a file of this size can hold so many items of so many bytes.
-  std::size_t held(std::int64_t count, std::int64_t bytes, const std::string& what) const {
-    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file_));
-    const std::int64_t most = (container_ == Container::hdf5 ? best_packing : 1) * size / bytes;
-    if (count < 0 || count > most) {
-      fail("{} {} announced, but a file of {} bytes holds at most {}: it is damaged", count, what, size, most);
-    }
-    return static_cast<std::size_t>(count);
-  }
-
-  void read_sizes() {
-    check(ex_get_init_ext(handle_.id(), &sizes_), "header");
-    if (sizes_.num_dim != 2 && sizes_.num_dim != 3) fail("found {} dimensions; allowed are 2 and 3", sizes_.num_dim);
-    held(sizes_.num_nodes, sizes_.num_dim * static_cast<std::int64_t>(sizeof(float)), "nodes");
-    held(sizes_.num_elem, sizeof(int), "elements");
-    held(sizes_.num_elem_blk, sizeof(int), "element blocks");
-    held(sizes_.num_node_sets, sizeof(int), "node sets");
-    held(sizes_.num_side_sets, sizeof(int), "side sets");
-    const auto longest = ex_inquire_int(handle_.id(), EX_INQ_DB_MAX_USED_NAME_LENGTH);
-    ex_set_max_name_length(handle_.id(), static_cast<int>(std::clamp<std::int64_t>(longest, 32, longest_name)));
-  }
-
-  std::vector<std::int64_t> ids(ex_entity_type kind, std::int64_t count, const std::string& what) const {
-    std::vector<std::int64_t> numbers(static_cast<std::size_t>(count));
-    if (count > 0) check(ex_get_ids(handle_.id(), kind, numbers.data()), what);
-    return numbers;
-  }
-
-  std::string name_of(ex_entity_type kind, std::int64_t id, const char* unnamed) const {
-    std::string name(longest_name + 1, '\0');
-    if (ex_get_name(handle_.id(), kind, id, name.data()) < 0) name.clear();
-    name.resize(std::min(name.find('\0'), name.size()));
-    if (base::has_control_characters(name)) {
-      fail("the name \"{}\" has control characters; allowed are readable names", excerpt(name));
-    }
-    return name.empty() ? fmt::format("{}_{}", unnamed, id) : name;
-  }
-
   /// Files need not number nodes or elements, or may do so with the same number twice: their places are numbers, too.
-  std::vector<std::int64_t> tags(ex_entity_type kind, std::int64_t count, const std::string& what) const {
-    std::vector<std::int64_t> numbers(static_cast<std::size_t>(count));
-    if (count > 0) check(ex_get_id_map(handle_.id(), kind, numbers.data()), what);
-    std::vector<std::int64_t> ascending = numbers;
-    std::sort(ascending.begin(), ascending.end());
-    if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end()) {
-      std::iota(numbers.begin(), numbers.end(), std::int64_t{1});
+  /// Collective.
+  void read_numbers(const base::Comm& comm) {
+    std::vector<std::int64_t> numbers_of_elements;
+    base::on_all_ranks(comm, [&] {
+      result_.node_tags = file_.numbers(EX_NODE_MAP, own_nodes_);
+      numbers_of_elements = file_.numbers(EX_ELEM_MAP, share_.of(file_.n_elements()));
+    });
+    if (!are_all_different(comm, result_.node_tags)) {
+      std::iota(result_.node_tags.begin(), result_.node_tags.end(), own_nodes_.begin + 1);
     }
-    return numbers;
+    elements_have_numbers_ = are_all_different(comm, std::move(numbers_of_elements));
   }
 
+  /// Local.
   void read_nodes() {
-    const auto n = static_cast<std::size_t>(sizes_.num_nodes);
-    result_.node_tags = tags(EX_NODE_MAP, sizes_.num_nodes, "node numbers");
-    std::array<std::vector<double>, 3> axes;
-    for (auto& axis : axes) axis.assign(n, 0.);
-    if (n > 0) {
-      check(ex_get_coord(handle_.id(), axes[0].data(), axes[1].data(), sizes_.num_dim == 3 ? axes[2].data() : nullptr),
-            "coordinates");
-    }
-    for (std::size_t i = 0; i < n; ++i) {
+    const auto axes = file_.coordinates(own_nodes_);
+    result_.coordinates.reserve(result_.node_tags.size());
+    for (std::size_t i = 0; i < result_.node_tags.size(); ++i) {
       result_.coordinates.push_back({axes[0][i], axes[1][i], axes[2][i]});
       for (const double x : result_.coordinates.back()) {
-        if (!std::isfinite(x)) fail("a coordinate of node {} is {}", result_.node_tags[i], x);
+        if (!std::isfinite(x)) file_.fail("a coordinate of node {} is {}", result_.node_tags[i], x);
       }
     }
   }
 
+  /// Local.
   void read_blocks() {
-    numbers_ = tags(EX_ELEM_MAP, sizes_.num_elem, "element numbers");
-    for (const std::int64_t id : ids(EX_ELEM_BLOCK, sizes_.num_elem_blk, "numbers of the element blocks")) {
-      read_block(id);
-    }
-    if (n_passed_over_ + static_cast<std::int64_t>(result_.n_elements()) != sizes_.num_elem) {
-      fail("{} elements announced, but the blocks have {}: the file is damaged", sizes_.num_elem,
-           n_passed_over_ + static_cast<std::int64_t>(result_.n_elements()));
+    list_blocks();
+    for (Block& block : blocks_) {
+      if (block.has_body) read_elements(block);
     }
   }
 
-  void read_block(std::int64_t id) {
-    Block block{id, "", std::string(MAX_STR_LENGTH + 1, '\0')};
-    std::int64_t n_edges = 0, n_faces = 0, n_attributes = 0;
-    check(ex_get_block(handle_.id(), EX_ELEM_BLOCK, id, block.type.data(), &block.n_elements, &block.n_nodes, &n_edges,
-                       &n_faces, &n_attributes),
-          fmt::format("element block {}", id));
-    block.type.resize(std::min(block.type.find('\0'), block.type.size()));
-    block.name = name_of(EX_ELEM_BLOCK, id, "block");
-    if (block.n_elements == 0) return;
-    if (block.n_elements > sizes_.num_elem - static_cast<std::int64_t>(element_at_.size()) || block.n_elements < 0) {
-      fail("{} elements announced, but the blocks have more: the file is damaged", sizes_.num_elem);
+  /// Files of plane elements in three dimensions have one numbering of sides or the other (edges from 1, or, as of
+  /// shells, after two faces), whatever the elements are called. The right one is that by which more of the sides are
+  /// edges of the body, or faces beside solid elements. Collective.
+  void choose_side_numbering(const base::Comm& comm) {
+    const bool has_choice = std::any_of(blocks_.begin(), blocks_.end(), [](const Block& b) { return b.is_plane(); });
+    if (file_.n_dimensions() != 3 || !has_choice) return;
+    std::vector<OwnSide> sides;
+    base::on_all_ranks(comm, [&] { sides = sides_of_plane_elements(); });
+    const BoundaryEdges edges(comm, edges_of_plane_elements());
+    if (edges.empty()) return;
+    const std::vector<double> usual = n_sides_at_boundary(comm, sides, false, edges);
+    const std::vector<double> other = n_sides_at_boundary(comm, sides, true, edges);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      if (other[b] > usual[b]) take_other_numbering(blocks_[b], std::lround(other[b]), std::lround(usual[b]));
     }
-    has_body(block.type) ? read_elements(block) : pass_over(block);
   }
 
+  /// Local. Sides are appended after all elements.
+  void read_sets() {
+    for (const auto& set : file_.side_sets()) read_side_set(set);
+    for (const auto& set : file_.node_sets()) read_node_set(set);
+  }
+
+  /// The last step: places in the file become the nodes' numbers. Collective.
+  MeshFile put_node_numbers(const base::Comm& comm) {
+    std::vector<std::int64_t> places(result_.node_tags.size());
+    std::iota(places.begin(), places.end(), own_nodes_.begin + 1);
+    if (base::max(comm, base::GlobalId{places == result_.node_tags ? 0 : 1}) > 0) {
+      for (auto* list : {&result_.element_nodes, &result_.mid_nodes}) {
+        for (std::int64_t& node : *list) --node;
+        *list = items_at(comm, result_.node_tags, file_.n_nodes(), *list);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// A block of elements, and the part of it that is in the share.
   struct Block {
-    std::int64_t id;
-    std::string name, type;
-    std::int64_t n_elements = 0, n_nodes = 0;
+    ExodusInput::Block described;
+    std::int64_t first;  ///< place in the file of its first element
+    bool has_body;       ///< otherwise it is passed over, and what follows has no meaning
+    Shape shape = Shape::point;
+    bool is_shell = false;
+    int group_list = 0;
+    Range own = {};                  ///< of its elements
+    std::int64_t first_in_list = 0;  ///< place in the lists of the first of them
+
+    bool is_plane() const { return has_body && dimension(shape) == 2; }
   };
 
-  void pass_over(const Block& block) {
-    element_at_.resize(element_at_.size() + static_cast<std::size_t>(block.n_elements), passed_over);
-    n_passed_over_ += block.n_elements;
-    result_.notes.push_back(fmt::format("the block \"{}\" is passed over: its {} elements of type \"{}\" have no body",
-                                        block.name, block.n_elements, excerpt(block.type)));
-  }
+  /// A side of an element in the share.
+  struct OwnSide {
+    std::int64_t place;   ///< in the set
+    std::size_t block;    ///< in blocks_
+    std::size_t element;  ///< in the lists
+    std::int64_t number;  ///< of the side, as in the file
+  };
 
-  void read_elements(const Block& block) {
-    const PlaneOrSolid type = type_of(block);
-    held(block.n_elements, block.n_nodes * static_cast<std::int64_t>(sizeof(int)), "elements");
-    std::vector<std::int64_t> nodes(static_cast<std::size_t>(block.n_elements * block.n_nodes));
-    check(ex_get_conn(handle_.id(), EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
-          fmt::format("elements of block \"{}\"", block.name));
-    const bool is_shell = type.is_shell || (type.shape == Shape::triangle && sizes_.num_dim == 3);
-    side_numbering_.push_back({block.name, dimension(type.shape), is_shell});
-    if (dimension(type.shape) == 2) result_.n_plane_bodies += static_cast<std::size_t>(block.n_elements);
-    const int list = add_group(dimension(type.shape), block.name);
-    for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_elements); ++e) {
-      const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(e) * block.n_nodes;
-      add_element(type.shape, list, {first, first + block.n_nodes});
+  // ---- elements ----
+
+  void list_blocks() {
+    std::int64_t first = 0;
+    std::array<std::int64_t, 4> n_elements{};
+    for (const ExodusInput::Block& described : file_.blocks()) {
+      if (described.n_elements == 0) continue;
+      Block& block = blocks_.emplace_back(Block{described, first, has_body(described.type)});
+      first += described.n_elements;
+      if (!block.has_body) {
+        note("the block \"{}\" is passed over: its {} elements of type \"{}\" have no body", described.name,
+             described.n_elements, excerpt(described.type));
+        continue;
+      }
+      const PlaneOrSolid type = type_of(described);
+      file_.check_size(described);
+      block.shape = type.shape;
+      block.is_shell = type.is_shell || (type.shape == Shape::triangle && file_.n_dimensions() == 3);
+      block.group_list = add_group(dimension(type.shape), described.name);
+      block.own.begin = n_elements[dimension(type.shape)];  // at first of all elements of the dimension
+      n_elements[dimension(type.shape)] += described.n_elements;
+    }
+    for (Block& block : blocks_) {
+      const Range wanted = share_.of(n_elements[dimension(block.shape)]).from(block.own.begin);
+      block.own = Range{0, block.described.n_elements}.overlap(wanted);
     }
   }
 
-  PlaneOrSolid type_of(const Block& block) const {
+  PlaneOrSolid type_of(const ExodusInput::Block& block) const {
     if (const auto type = plane_or_solid(block.type, block.n_nodes)) return *type;
-    fail(
+    file_.fail(
         "block \"{}\" has elements of type \"{}\" with {} nodes; allowed are triangles (TRI), quadrangles (QUAD, "
         "SHELL), "
         "TETRA, PYRAMID, WEDGE and HEX, of first or second order",
         block.name, excerpt(block.type), block.n_nodes);
   }
 
-  void add_element(Shape shape, int list, const std::vector<std::int64_t>& numbers) {
-    const std::int64_t tag = numbers_[element_at_.size()];
-    std::vector<std::int64_t> nodes;
-    for (const std::int64_t number : numbers) nodes.push_back(node_tag(number, fmt::format("element {}", tag)));
-    element_at_.push_back(static_cast<int>(result_.n_elements()));
-    block_of_.push_back(static_cast<int>(side_numbering_.size()) - 1);
-    result_.add_element(tag, shape, list, nodes);
+  void read_elements(Block& block) {
+    block.first_in_list = static_cast<std::int64_t>(result_.n_elements());
+    if (block.is_plane()) result_.n_plane_bodies += static_cast<std::size_t>(block.own.size());
+    const std::int64_t n_nodes = block.described.n_nodes;
+    for (Range part = {block.own.begin, block.own.begin}; part.end < block.own.end; part.begin = part.end) {
+      part.end = std::min(part.begin + most_at_once, block.own.end);
+      const std::vector<std::int64_t> nodes = file_.nodes_of_elements(block.described, part);
+      const std::vector<std::int64_t> numbers = numbers_of_elements(part.from(-block.first));
+      for (std::int64_t e = 0; e < part.size(); ++e) {
+        const auto begin = nodes.begin() + e * n_nodes;
+        add_element(numbers[static_cast<std::size_t>(e)], block, {begin, begin + n_nodes});
+      }
+    }
   }
 
-  std::int64_t node_tag(std::int64_t number, const std::string& owner) const {
-    if (number < 1 || number > sizes_.num_nodes) {
-      fail("{} has node {}; allowed are 1 to {}", owner, number, sizes_.num_nodes);
-    }
-    return result_.node_tags[static_cast<std::size_t>(number - 1)];
+  /// @param range of places in the file
+  std::vector<std::int64_t> numbers_of_elements(const Range& range) const {
+    if (elements_have_numbers_) return file_.numbers(EX_ELEM_MAP, range);
+    std::vector<std::int64_t> numbers(static_cast<std::size_t>(range.size()));
+    std::iota(numbers.begin(), numbers.end(), range.begin + 1);
+    return numbers;
   }
+
+  void add_element(std::int64_t number, const Block& block, const std::vector<std::int64_t>& nodes) {
+    for (const std::int64_t node : nodes) {
+      if (!is_node(node)) file_.fail("element {} has node {}; allowed are 1 to {}", number, node, file_.n_nodes());
+    }
+    result_.add_element(number, block.shape, block.group_list, nodes);
+  }
+
+  bool is_node(std::int64_t node) const { return node >= 1 && node <= file_.n_nodes(); }
 
   /// Blocks and sets each have ids of their own, of up to 64 bits; here they are numbered in order.
   int add_group(int dimension, const std::string& name) {
@@ -294,173 +226,200 @@ class Reader {
     return result_.add_group_list({number});
   }
 
-  // ---- sets ----
-
-  Set read_set(ex_entity_type kind, std::int64_t id, const char* unnamed) const {
-    Set set{id, name_of(kind, id, unnamed), {}, {}};
-    std::int64_t n = 0, n_factors = 0;
-    check(ex_get_set_param(handle_.id(), kind, id, &n, &n_factors), fmt::format("set \"{}\"", set.name));
-    set.entries.resize(held(n, sizeof(int), "members of a set"));
-    if (kind == EX_SIDE_SET) set.extra.resize(set.entries.size());
-    if (n > 0) {
-      check(ex_get_set(handle_.id(), kind, id, set.entries.data(), set.extra.empty() ? nullptr : set.extra.data()),
-            fmt::format("set \"{}\"", set.name));
-    }
-    return set;
+  /// What all ranks find, one of them notes.
+  template <class... Arguments>
+  void note(fmt::format_string<Arguments...> what, Arguments&&... arguments) {
+    if (share_.rank == 0) result_.notes.push_back(fmt::format(what, std::forward<Arguments>(arguments)...));
   }
 
-  /// Sides are appended after all elements, so that an element's number remains its place in the lists.
-  void read_side_sets() {
-    std::vector<Set> sets;
-    for (const std::int64_t id : ids(EX_SIDE_SET, sizes_.num_side_sets, "numbers of the side sets")) {
-      sets.push_back(read_set(EX_SIDE_SET, id, "sides"));
+  // ---- side sets: all ranks look at all members, and each takes the sides of its elements ----
+
+  /// Where the element of a set, counted from 1, is in blocks_.
+  std::size_t block_of(const ExodusInput::Set& set, std::int64_t element) const {
+    if (element < 1 || element > file_.n_elements()) {
+      file_.fail("side set \"{}\" has element {}; allowed are 1 to {}", set.name, element, file_.n_elements());
     }
-    choose_side_numbering(sets);
-    for (const Set& set : sets) add_side_set(set);
+    const auto next = std::upper_bound(blocks_.begin(), blocks_.end(), element - 1,
+                                       [](std::int64_t place, const Block& block) { return place < block.first; });
+    return static_cast<std::size_t>(next - blocks_.begin()) - 1;
   }
 
-  /// A set with sides that its elements do not have is left out: perhaps nobody uses it.
-  void add_side_set(const Set& set) {
-    std::vector<std::vector<std::int64_t>> sides;
-    for (std::size_t i = 0; i < set.entries.size(); ++i) {
-      const int element = element_index(set, i);
-      sides.push_back(element == passed_over ? std::vector<std::int64_t>() : nodes_of_side(element, set.extra[i]));
-      if (!sides.back().empty()) continue;
-      result_.notes.push_back(fmt::format(
-          "the side set \"{}\" is left out: it has side {} of element {}, which is none of its edges or faces",
-          set.name, set.extra[i], numbers_[static_cast<std::size_t>(set.entries[i] - 1)]));
-      return;
-    }
-    std::map<int, int> list_of_dimension;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      const Shape shape = side_shape(sides[i].size());
-      const auto [list, is_new] = list_of_dimension.emplace(dimension(shape), 0);
-      if (is_new) list->second = add_group(dimension(shape), set.name);
-      result_.add_element(static_cast<std::int64_t>(i) + 1, shape, list->second, sides[i]);
-    }
+  std::optional<OwnSide> own_side(std::int64_t place, std::size_t block, std::int64_t element,
+                                  std::int64_t number) const {
+    const std::int64_t in_block = element - 1 - blocks_[block].first;
+    if (!blocks_[block].own.has(in_block)) return std::nullopt;
+    const std::int64_t in_lists = blocks_[block].first_in_list + in_block - blocks_[block].own.begin;
+    return OwnSide{place, block, static_cast<std::size_t>(in_lists), number};
   }
 
-  /// Where the entry's element stands in the lists, or that it was passed over.
-  int element_index(const Set& set, std::size_t entry) const {
-    const std::int64_t element = set.entries[entry];
-    if (element < 1 || element > static_cast<std::int64_t>(element_at_.size())) {
-      fail("side set \"{}\" has element {}; allowed are 1 to {}", set.name, element, element_at_.size());
-    }
-    return element_at_[static_cast<std::size_t>(element - 1)];
-  }
-
-  /// The corners of a side, {} if the element has none of that number.
-  std::vector<std::int64_t> nodes_of_side(int element, std::int64_t side_number) const {
-    const auto e = static_cast<std::size_t>(element);
-    return nodes_of_side(e, side_number, side_numbering_[static_cast<std::size_t>(block_of_[e])].is_shell);
-  }
-
-  std::vector<std::int64_t> nodes_of_side(std::size_t element, std::int64_t side_number, bool is_shell) const {
-    const auto begin = result_.element_nodes.begin() + static_cast<std::ptrdiff_t>(result_.first_node[element]);
-    const auto& all = sides(element_type(result_.shapes[element]));
-    const std::int64_t side = side_number - 1 - (is_shell ? n_faces_of_shell : 0);
-    if (is_shell && side < 0 && side_number >= 1) return {begin, begin + n_nodes(result_.shapes[element])};
-    if (side < 0 || side >= static_cast<std::int64_t>(all.size())) return {};
+  std::vector<std::int64_t> nodes_of_side(std::size_t element, const std::vector<int>& corners) const {
     std::vector<std::int64_t> nodes;
-    for (const int corner : all[static_cast<std::size_t>(side)]) nodes.push_back(begin[corner]);
+    const std::size_t first = result_.first_node[element];
+    for (const int corner : corners) nodes.push_back(result_.element_nodes[first + static_cast<std::size_t>(corner)]);
     return nodes;
   }
 
-  // ---- the numbers of sides of plane elements: edges from 1, or, as of shells, after two faces ----
+  /// A set with sides that its elements do not have is left out: perhaps nobody uses it.
+  void read_side_set(const ExodusInput::Set& set) {
+    std::vector<OwnSide> own;
+    std::vector<int> dimensions;  // of its sides, as they come
+    bool is_left_out = false;
+    file_.for_each_member(set, [&](std::int64_t place, std::int64_t element, std::int64_t number) {
+      if (is_left_out) return;
+      const std::size_t b = block_of(set, element);
+      const std::vector<int> corners = corners_of_side(blocks_[b], number);
+      if (corners.empty()) {
+        is_left_out = true;
+        return note(
+            "the side set \"{}\" is left out: it has side {} of element {}, which is none of its edges or faces",
+            set.name, number, numbers_of_elements({element - 1, element})[0]);
+      }
+      const int found = dimension(side_shape(corners.size()));
+      if (std::count(dimensions.begin(), dimensions.end(), found) == 0) dimensions.push_back(found);
+      if (const auto side = own_side(place, b, element, number)) own.push_back(*side);
+    });
+    if (!is_left_out) add_side_set(set.name, dimensions, own);
+  }
 
-  /// Files of plane elements in three dimensions have one or the other, whatever the elements are called. The right one
-  /// is that by which more of the sides are edges of the body, or faces beside solid elements.
-  void choose_side_numbering(const std::vector<Set>& sets) {
-    if (sizes_.num_dim != 3) return;
-    const auto edges = boundary_edges();
-    if (edges.empty()) return;
-    for (std::size_t b = 0; b < side_numbering_.size(); ++b) {
-      SideNumbering& numbering = side_numbering_[b];
-      if (numbering.dimension != 2) continue;
-      const bool usual = numbering.is_shell;
-      const int n_usual = n_sides_at_boundary(sets, static_cast<int>(b), usual, edges);
-      const int n_other = n_sides_at_boundary(sets, static_cast<int>(b), !usual, edges);
-      if (n_other <= n_usual) continue;
-      numbering.is_shell = !usual;
-      result_.notes.push_back(
-          fmt::format("sides of the block \"{}\" are taken as numbered {}: as that, {} of them are at "
-                      "the boundary, otherwise {}",
-                      numbering.block, usual ? "from the first edge" : "after two faces", n_other, n_usual));
+  static std::vector<int> corners_of_side(const Block& block, std::int64_t number) {
+    if (!block.has_body) return {};
+    return mesh_files::corners_of_side(block.shape, number, block.is_shell);
+  }
+
+  void add_side_set(const std::string& name, const std::vector<int>& dimensions, const std::vector<OwnSide>& own) {
+    std::map<int, int> list_of_dimension;
+    for (const int d : dimensions) list_of_dimension[d] = add_group(d, name);
+    for (const OwnSide& side : own) {
+      const std::vector<int> corners = corners_of_side(blocks_[side.block], side.number);
+      const Shape shape = side_shape(corners.size());
+      result_.add_element(side.place + 1, shape, list_of_dimension.at(dimension(shape)),
+                          nodes_of_side(side.element, corners));
     }
   }
 
-  using Edge = std::pair<std::int64_t, std::int64_t>;
-  static Edge edge_of(const std::vector<std::int64_t>& nodes) { return std::minmax(nodes[0], nodes[1]); }
+  // ---- the numbering of the sides of plane elements ----
 
-  /// Edges that one plane element has.
-  std::set<Edge> boundary_edges() const {
-    std::map<Edge, int> n_elements;
-    for (std::size_t e = 0; e < result_.n_elements(); ++e) {
-      if (dimension(result_.shapes[e]) != 2) continue;
-      for (int side = 1; side <= n_nodes(result_.shapes[e]); ++side)
-        ++n_elements[edge_of(nodes_of_side(e, side, false))];
+  std::vector<OwnSide> sides_of_plane_elements() const {
+    std::vector<OwnSide> own;
+    for (const auto& set : file_.side_sets()) {
+      file_.for_each_member(set, [&](std::int64_t place, std::int64_t element, std::int64_t number) {
+        const std::size_t b = block_of(set, element);
+        if (!blocks_[b].is_plane()) return;
+        if (const auto side = own_side(place, b, element, number)) own.push_back(*side);
+      });
     }
-    std::set<Edge> edges;
-    for (const auto& [edge, n] : n_elements) {
-      if (n == 1) edges.insert(edge);
+    return own;
+  }
+
+  static Edge edge_of(const std::vector<std::int64_t>& nodes) {
+    return {std::min(nodes[0], nodes[1]), std::max(nodes[0], nodes[1])};
+  }
+
+  std::vector<Edge> edges_of_plane_elements() const {
+    std::vector<Edge> edges;
+    for (std::size_t e = 0; e < result_.n_elements(); ++e) {
+      const Shape shape = result_.shapes[e];
+      if (dimension(shape) != 2) continue;
+      for (const auto& corners : sides(element_type(shape))) edges.push_back(edge_of(nodes_of_side(e, corners)));
     }
     return edges;
   }
 
-  int n_sides_at_boundary(const std::vector<Set>& sets, int block, bool is_shell, const std::set<Edge>& edges) const {
-    const bool has_solids =
-        std::any_of(result_.shapes.begin(), result_.shapes.end(), [](Shape shape) { return dimension(shape) == 3; });
-    int n = 0;
-    for (const Set& set : sets) {
-      for (std::size_t i = 0; i < set.entries.size(); ++i) {
-        const int element = element_index(set, i);
-        if (element == passed_over || block_of_[static_cast<std::size_t>(element)] != block) continue;
-        const auto nodes = nodes_of_side(static_cast<std::size_t>(element), set.extra[i], is_shell);
-        n += nodes.size() == 2 ? static_cast<int>(edges.count(edge_of(nodes))) : !nodes.empty() && has_solids ? 1 : 0;
-      }
+  /// By block, over all ranks.
+  /// @param other by the numbering that the block's type does not stand for
+  std::vector<double> n_sides_at_boundary(const base::Comm& comm, const std::vector<OwnSide>& own, bool other,
+                                          const BoundaryEdges& boundary) const {
+    const bool has_solids = std::any_of(blocks_.begin(), blocks_.end(),
+                                        [](const Block& b) { return b.has_body && dimension(b.shape) == 3; });
+    std::vector<double> n(blocks_.size(), 0.);
+    std::vector<Edge> edges;
+    std::vector<std::size_t> blocks_of_edges;
+    for (const OwnSide& side : own) {
+      const Block& block = blocks_[side.block];
+      const auto corners = mesh_files::corners_of_side(block.shape, side.number, block.is_shell != other);
+      if (corners.size() > 2 && has_solids) n[side.block] += 1.;
+      if (corners.size() != 2) continue;
+      edges.push_back(edge_of(nodes_of_side(side.element, corners)));
+      blocks_of_edges.push_back(side.block);
     }
+    const std::vector<char> are_at_boundary = boundary.have(comm, edges);
+    for (std::size_t i = 0; i < edges.size(); ++i) n[blocks_of_edges[i]] += are_at_boundary[i];
+    base::sum(comm, n);
     return n;
   }
 
-  void read_node_sets() {
-    for (const std::int64_t id : ids(EX_NODE_SET, sizes_.num_node_sets, "numbers of the node sets")) {
-      const Set set = read_set(EX_NODE_SET, id, "nodes");
-      std::set<std::int64_t> nodes;
-      for (const std::int64_t node : set.entries)
-        nodes.insert(node_tag(node, fmt::format("node set \"{}\"", set.name)));
-      if (nodes.empty()) continue;
-      const int list = add_group(0, set.name);
-      for (const std::int64_t node : nodes) result_.add_element(node, Shape::point, list, {node});
-    }
+  void take_other_numbering(Block& block, long n_other, long n_usual) {
+    note("sides of the block \"{}\" are taken as numbered {}: as that, {} of them are at the boundary, otherwise {}",
+         block.described.name, block.is_shell ? "from the first edge" : "after two faces", n_other, n_usual);
+    block.is_shell = !block.is_shell;
   }
 
-  const std::string& file_;
-  Container container_;
-  Handle handle_;
-  ex_init_params sizes_{};
+  // ---- node sets: each rank takes its nodes ----
+
+  void read_node_set(const ExodusInput::Set& set) {
+    std::map<std::int64_t, std::int64_t> own;  // by number
+    file_.for_each_member(set, [&](std::int64_t, std::int64_t node, std::int64_t) {
+      if (!is_node(node))
+        file_.fail("node set \"{}\" has node {}; allowed are 1 to {}", set.name, node, file_.n_nodes());
+      if (own_nodes_.has(node - 1))
+        own[result_.node_tags[static_cast<std::size_t>(node - 1 - own_nodes_.begin)]] = node;
+    });
+    if (set.n_members == 0) return;
+    const int list = add_group(0, set.name);
+    for (const auto& [number, node] : own) result_.add_element(number, Shape::point, list, {node});
+  }
+
+  ExodusInput file_;
+  Share share_;
+  Range own_nodes_;
   MeshFile result_;
-  std::vector<std::int64_t> numbers_;  ///< of the file's elements
-  std::vector<int> element_at_;        ///< by place in the file: index of the element, or passed_over
-  std::int64_t n_passed_over_ = 0;
-  std::vector<int> block_of_;  ///< by index of an element, place in side_numbering_
-  std::vector<SideNumbering> side_numbering_;
+  bool elements_have_numbers_ = true;
+  std::vector<Block> blocks_;  ///< those with elements
 };
 
-}  // namespace
+/// What the library will be asked for when each rank reads its share.
+void read_all_shares(const std::string& file, int n_ranks) {
+  const Teuchos::SerialComm<int> alone;
+  for (int rank = 0; rank < n_ranks; ++rank) {
+    Reader reader(file, {rank, n_ranks});
+    reader.read_numbers(alone);
+    reader.read_nodes();
+    reader.read_blocks();
+    if (n_ranks == 1) reader.choose_side_numbering(alone);
+    if (rank == 0) reader.read_sets();  // of which all ranks read the same
+  }
+}
 
 /// HDF5's library trusts what a file says of itself: damaged ones make it crash or take all memory. So another process
 /// reads it first. (Classic headers are checked by ourselves.)
-MeshFile read_exodus_file(const std::string& file) {
+void try_to_read(const std::string& file, int n_ranks) {
   require_regular_file(file, "an Exodus file");
-  if (container_of(file) == Container::hdf5) {
-    const std::size_t size = std::filesystem::file_size(file);
-    const std::string trouble = on_trial([&] { Reader(file).read(); }, trial_memory + trial_memory_per_byte * size,
-                                         static_cast<unsigned>(trial_seconds + size / trial_bytes_per_second));
-    if (!trouble.empty()) {
-      throw base::UserError(fmt::format("{}: the HDF5 library cannot read it ({}): it is damaged", file, trouble));
-    }
-  }
-  return Reader(file).read();
+  if (container_of(file) != Container::hdf5) return;
+  const std::size_t size = std::filesystem::file_size(file);
+  const std::string trouble =
+      on_trial([&] { read_all_shares(file, n_ranks); }, trial_memory + trial_memory_per_byte * size,
+               static_cast<unsigned>(trial_seconds + size / trial_bytes_per_second));
+  if (trouble.empty()) return;
+  throw base::UserError(fmt::format("{}: the HDF5 library cannot read it ({}): it is damaged", file, trouble));
 }
+
+}  // namespace
+
+MeshFile read_exodus_file(const base::Comm& comm, const std::string& file) {
+  const Share share = {comm.getRank(), comm.getSize()};
+  base::on_all_ranks(comm, [&] {
+    if (share.rank == 0) try_to_read(file, share.n_ranks);
+  });
+  std::optional<Reader> reader;
+  base::on_all_ranks(comm, [&] { reader.emplace(file, share); });
+  reader->read_numbers(comm);
+  base::on_all_ranks(comm, [&] { reader->read_nodes(); });
+  base::on_all_ranks(comm, [&] { reader->read_blocks(); });
+  reader->choose_side_numbering(comm);
+  base::on_all_ranks(comm, [&] { reader->read_sets(); });
+  return reader->put_node_numbers(comm);
+}
+
+MeshFile read_exodus_file(const std::string& file) { return read_exodus_file(Teuchos::SerialComm<int>(), file); }
 
 }  // namespace perimorph::mesh_files

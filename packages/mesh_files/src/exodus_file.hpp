@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh_file.hpp"
+#include "perimorph/base/parallel.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -10,5 +11,10 @@ namespace perimorph::mesh_files {
 /// @throws UserError if the file cannot be read, is truncated or damaged, announces more than it can hold, or has
 ///         elements of an unknown type; bars, spheres and the like are passed over with a note.
 MeshFile read_exodus_file(const std::string& file);
+
+/// The same, of which each rank reads its share of the nodes and of the elements of each dimension, in the file's
+/// order; members of node sets come where the node is, sides where their element is. The groups are all there on every
+/// rank, the notes on rank 0. Collective.
+MeshFile read_exodus_file(const base::Comm& comm, const std::string& file);
 
 }  // namespace perimorph::mesh_files

@@ -1,12 +1,10 @@
 #include "file_cursor.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <system_error>
 
@@ -17,18 +15,6 @@ namespace perimorph::mesh_files {
 namespace {
 
 constexpr std::string_view white_space = " \t\r\n";
-
-std::string read_whole_file(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream) {
-    throw base::UserError(fmt::format("{}: cannot be read: {}", file, std::generic_category().message(errno)));
-  }
-  std::string text(static_cast<std::size_t>(stream.tellg()), '\0');
-  stream.seekg(0);
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream) throw base::UserError(fmt::format("{}: cannot be read to its end", file));
-  return text;
-}
 
 /// Unlike the standard library's, as C has it: "+1" is a number.
 std::string_view without_plus(std::string_view text) {
@@ -71,14 +57,25 @@ void require_regular_file(const std::string& file, const std::string& wanted) {
   if (std::filesystem::file_size(file, error) == 0) refuse("the file is empty; " + wanted + " is needed");
 }
 
-FileCursor::FileCursor(const std::string& file, const std::string& wanted) : file_(file) {
+namespace {
+std::string regular_file(const std::string& file, const std::string& wanted) {
   require_regular_file(file, wanted);
-  text_ = read_whole_file(file);
+  return file;
+}
+}  // namespace
+
+FileCursor::FileCursor(const std::string& file, const std::string& wanted)
+    : file_(regular_file(file, wanted)), mapped_(file_), text_(mapped_.bytes()) {
   if (at_end()) throw base::UserError(fmt::format("{}: the file is empty; {} is needed", file, wanted));
 }
 
 void FileCursor::skip_white_space() {
-  position_ = std::min(text_.find_first_not_of(white_space, position_), text_.size());
+  move_to(std::min(text_.find_first_not_of(white_space, position_), text_.size()));
+}
+
+void FileCursor::release_what_is_behind() {
+  mapped_.release(released_, position_);
+  released_ = position_;
 }
 
 bool FileCursor::at_end() {
@@ -88,9 +85,9 @@ bool FileCursor::at_end() {
 
 std::string FileCursor::raw_line() {
   const std::size_t end = std::min(text_.find('\n', position_), text_.size()), begin = position_;
-  position_ = std::min(end + 1, text_.size());
+  move_to(std::min(end + 1, text_.size()));
   const bool windows = end > begin && text_[end - 1] == '\r';
-  return text_.substr(begin, end - begin - (windows ? 1 : 0));
+  return std::string(text_.substr(begin, end - begin - (windows ? 1 : 0)));
 }
 
 std::string FileCursor::line() {
@@ -103,7 +100,7 @@ std::string FileCursor::line() {
 
 void FileCursor::expect(const std::string& words) {
   if (at_end()) fail_truncated();
-  const std::string_view found = std::string_view(text_).substr(position_, words.size());
+  const std::string_view found = text_.substr(position_, words.size());
   if (found == words) {
     position_ += words.size();
   } else if (remaining() < words.size() && found == words.substr(0, found.size())) {
@@ -117,7 +114,7 @@ void FileCursor::skip_to_line(const std::string& words) {
   const std::size_t found =
       text_.compare(position_, words.size(), words) == 0 ? position_ : text_.find('\n' + words, position_);
   if (found == std::string::npos) fail(fmt::format("{} is missing: the file is truncated or damaged", excerpt(words)));
-  position_ = found;
+  move_to(found);
   skip_white_space();
 }
 
@@ -129,8 +126,8 @@ void FileCursor::skip_past_line(const std::string& words) {
 std::string_view FileCursor::token() {
   if (at_end()) fail_truncated();
   const std::size_t end = std::min(text_.find_first_of(white_space, position_), text_.size());
-  const std::string_view word = std::string_view(text_).substr(position_, end - position_);
-  position_ = end;
+  const std::string_view word = text_.substr(position_, end - position_);
+  move_to(end);
   return word;
 }
 
@@ -165,7 +162,17 @@ double FileCursor::ascii_real() {
 void FileCursor::skip_line_break() {
   const std::size_t end = text_.find('\n', position_);
   if (end == std::string::npos) fail_truncated();
-  position_ = end + 1;
+  move_to(end + 1);
+}
+
+void FileCursor::skip_numbers(std::size_t count, std::size_t bytes) {
+  if (!binary_) {
+    for (; count > 0; --count) token();
+    return;
+  }
+  const std::size_t most = remaining() / bytes;
+  move_to(position_ + std::min(count, most) * bytes);
+  if (count > most) fail_truncated();
 }
 
 std::size_t FileCursor::checked(std::int64_t count, std::size_t numbers, std::size_t bytes) const {

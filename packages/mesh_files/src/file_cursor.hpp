@@ -5,10 +5,12 @@
 #include <string>
 #include <string_view>
 
+#include "mapped_file.hpp"
+
 namespace perimorph::mesh_files {
 
 /// A place in the text of a mesh file, which hands out the numbers and lines that follow it. Every error names the file
-/// and the line (the byte in binary data).
+/// and the line (the byte in binary data). Of the file only a part around the place is in memory.
 class FileCursor {
  public:
   /// @param wanted what the file should be, "a gmsh mesh"
@@ -47,6 +49,10 @@ class FileCursor {
   std::int64_t next_long() { return binary_ ? raw<std::int64_t>() : ascii_long(); }
   double next_real();
 
+  /// Passes over numbers, in binary data without looking at them.
+  /// @param bytes of each in binary data
+  void skip_numbers(std::size_t count, std::size_t bytes);
+
   /// Numbers that are text even in binary files.
   int ascii_int();
   std::int64_t ascii_long();
@@ -65,7 +71,14 @@ class FileCursor {
   [[noreturn]] void fail_truncated() const;
 
  private:
+  static constexpr std::size_t most_kept = std::size_t{1} << 22U;  ///< in memory behind the place [bytes]
+
   void skip_white_space();
+  void move_to(std::size_t position) {
+    position_ = position;
+    if (position_ - released_ > most_kept) release_what_is_behind();
+  }
+  void release_what_is_behind();
   std::string_view token();
   std::size_t remaining() const { return text_.size() - position_; }
   std::string place() const;
@@ -75,13 +88,14 @@ class FileCursor {
     if (remaining() < sizeof(T)) fail_truncated();
     T value;
     std::memcpy(&value, text_.data() + position_, sizeof(T));
-    position_ += sizeof(T);
+    move_to(position_ + sizeof(T));
     return value;
   }
 
   std::string file_;
-  std::string text_;
-  std::size_t position_ = 0;
+  MappedFile mapped_;
+  std::string_view text_;
+  std::size_t position_ = 0, released_ = 0;
   bool binary_ = false;
 };
 

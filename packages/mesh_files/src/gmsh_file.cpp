@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <set>
 
 #include "file_cursor.hpp"
+#include "gmsh_elements.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::mesh_files {
@@ -17,22 +19,6 @@ namespace {
 
 constexpr int no_groups = 0;       // index into MeshFile::group_lists
 constexpr int any_dimension = -1;  // of a name in 2.0
-
-/// A kind of elements: its shape, and how many nodes it has, the corners first.
-struct Kind {
-  Shape shape;
-  int n_nodes;
-};
-
-/// By gmsh's numbers of kinds of elements (its manual, "Node ordering" and "MSH file format").
-const std::map<int, Kind> kinds = {
-    {15, {Shape::point, 1}},        {1, {Shape::line, 2}},        {8, {Shape::line, 3}},
-    {2, {Shape::triangle, 3}},      {9, {Shape::triangle, 6}},    {3, {Shape::quadrangle, 4}},
-    {10, {Shape::quadrangle, 9}},   {16, {Shape::quadrangle, 8}}, {4, {Shape::tetrahedron, 4}},
-    {11, {Shape::tetrahedron, 10}}, {5, {Shape::hexahedron, 8}},  {12, {Shape::hexahedron, 27}},
-    {17, {Shape::hexahedron, 20}},  {6, {Shape::wedge, 6}},       {13, {Shape::wedge, 18}},
-    {18, {Shape::wedge, 15}},       {7, {Shape::pyramid, 5}},     {14, {Shape::pyramid, 14}},
-    {19, {Shape::pyramid, 13}}};
 
 const char* const advice =
     "mesh it with gmsh -2 (or -3), and put what is to be computed into a physical surface (or volume)";
@@ -43,10 +29,26 @@ int group_number(int signed_number) { return static_cast<int>(std::abs(static_ca
 /// A point, curve, surface or volume: its dimension and number.
 using Entity = std::pair<int, int>;
 
+/// Nodes, and elements by dimension: which are wanted.
+struct Parts {
+  Range nodes;
+  std::array<Range, 4> elements;
+};
+constexpr Parts nothing = {}, all = {everything, {everything, everything, everything, everything}};
+
+/// Of nodes, and of elements of dimension 0 to 3.
+using Counts = std::vector<std::int64_t>;
+
+Parts share_of(const Counts& counts, const Share& share) {
+  Parts parts = {share.of(counts[0]), {}};
+  for (std::size_t d = 0; d < 4; ++d) parts.elements[d] = share.of(counts[d + 1]);
+  return parts;
+}
+
 /// Reads one file from front to back.
 class Reader {
  public:
-  explicit Reader(const std::string& file) : cursor_(file, "a gmsh mesh") {
+  Reader(const std::string& file, const Parts& wanted) : cursor_(file, "a gmsh mesh"), wanted_(wanted) {
     result_.name = file;
     result_.advice = advice;
   }
@@ -63,6 +65,13 @@ class Reader {
     put_elements_in_groups();
     name_the_unnamed();
     return std::move(result_);
+  }
+
+  /// Of what has been read or passed over.
+  Counts counts() const {
+    Counts counts = {n_nodes_};
+    counts.insert(counts.end(), n_elements_.begin(), n_elements_.end());
+    return counts;
   }
 
  private:
@@ -265,7 +274,7 @@ class Reader {
     skip_range();
     reserve_nodes(n_nodes);
     for (std::size_t b = 0; b < n_blocks; ++b) read_node_block();
-    check_total("nodes", n_nodes, result_.node_tags.size());
+    check_total("nodes", n_nodes, n_nodes_);
   }
 
   /// 4.1 says which numbers are the smallest and the largest.
@@ -284,12 +293,33 @@ class Reader {
   void read_node_block() {
     const int dimension = next_entity().first;
     const int n_parameters = cursor_.next_int() == 0 ? 0 : dimension;
-    const std::size_t n = cursor_.checked(cursor_.next_long(), 4, 28);
-    if (version_ == 41) {
-      for (std::size_t i = 0; i < n; ++i) result_.node_tags.push_back(cursor_.next_long());
+    if (n_parameters < 0 || n_parameters > 3) {
+      cursor_.fail(fmt::format("nodes of an entity of dimension {}: the file is damaged", dimension));
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (version_ == 40) result_.node_tags.push_back(cursor_.next_int());
+    const auto n = static_cast<std::int64_t>(cursor_.checked(cursor_.next_long(), 4, 28));
+    const Range wanted = Range{0, n}.overlap(wanted_.nodes.from(n_nodes_));
+    n_nodes_ += n;
+    if (version_ == 40) return read_numbered_nodes(n, wanted, n_parameters);
+    skip_numbers<std::int64_t>(wanted.begin);
+    for (std::int64_t i = 0; i < wanted.size(); ++i) result_.node_tags.push_back(cursor_.next_long());
+    skip_numbers<std::int64_t>(n - wanted.end);
+    skip_numbers<double>(wanted.begin * (3 + n_parameters));
+    for (std::int64_t i = 0; i < wanted.size(); ++i) {
+      read_coordinates();
+      for (int p = 0; p < n_parameters; ++p) cursor_.next_real();
+    }
+    skip_numbers<double>((n - wanted.end) * (3 + n_parameters));
+  }
+
+  /// Of 4.0: each node with its number.
+  void read_numbered_nodes(std::int64_t n, const Range& wanted, int n_parameters) {
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (!wanted.has(i)) {
+        skip_numbers<int>(1);
+        skip_numbers<double>(3 + n_parameters);
+        continue;
+      }
+      result_.node_tags.push_back(cursor_.next_int());
       read_coordinates();
       for (int p = 0; p < n_parameters; ++p) cursor_.next_real();
     }
@@ -301,17 +331,27 @@ class Reader {
     skip_range();
     reserve_elements(n_elements);
     for (std::size_t b = 0; b < n_blocks; ++b) read_element_block();
-    check_total("elements", n_elements, result_.n_elements());
+    check_total("elements", n_elements, n_elements_so_far());
   }
 
   void read_element_block() {
     const Entity entity = next_entity();
-    const int kind = cursor_.next_int();
+    const int number_of_kind = cursor_.next_int();
     const int groups = list_of_entity(entity);
-    for (std::size_t n = cursor_.checked(cursor_.next_long(), 2, 8); n > 0; --n) {
+    const auto n = static_cast<std::int64_t>(cursor_.checked(cursor_.next_long(), 2, 8));
+    if (n == 0) return;
+    const GmshKind& kind =
+        find_kind(number_of_kind) == nullptr ? kind_of(next_tag(), number_of_kind) : *find_kind(number_of_kind);
+    const int dimension_of_kind = dimension(kind.shape);
+    lists_in_use_.insert({dimension_of_kind, groups});
+    const Range wanted = Range{0, n}.overlap(wanted_.elements[dimension_of_kind].from(n_elements_[dimension_of_kind]));
+    n_elements_[dimension_of_kind] += n;
+    skip_tags(wanted.begin * (1 + kind.n_nodes));
+    for (std::int64_t i = 0; i < wanted.size(); ++i) {
       const std::int64_t tag = next_tag();
-      read_corners(tag, kind_of(tag, kind), groups);
+      read_corners(tag, kind, groups);
     }
+    skip_tags((n - wanted.end) * (1 + kind.n_nodes));
   }
 
   // ---- before 4: counts are text, numbers have 4 bytes ----
@@ -322,8 +362,13 @@ class Reader {
     const std::size_t n_nodes = cursor_.checked(count, 4, 28);
     reserve_nodes(n_nodes);
     for (std::size_t i = 0; i < n_nodes; ++i) {
-      result_.node_tags.push_back(cursor_.next_int());
-      read_coordinates();
+      if (wanted_.nodes.has(n_nodes_++)) {
+        result_.node_tags.push_back(cursor_.next_int());
+        read_coordinates();
+      } else {
+        skip_numbers<int>(1);
+        skip_numbers<double>(3);
+      }
       if (version_ == 30) skip_place_on_entity();
     }
   }
@@ -338,11 +383,12 @@ class Reader {
     skip_to_data();
     const std::size_t n_elements = cursor_.checked(count, 4, 8);
     reserve_elements(n_elements);
-    while (result_.n_elements() < n_elements) {
+    const auto end = static_cast<std::int64_t>(n_elements);
+    while (n_elements_so_far() < end) {
       if (version_ == 30) {
         read_element_3();
       } else if (cursor_.binary()) {
-        read_binary_run(n_elements - result_.n_elements());
+        read_binary_run(static_cast<std::size_t>(end - n_elements_so_far()));
       } else {
         read_element();
       }
@@ -353,8 +399,8 @@ class Reader {
   void read_element_3() {
     const int tag = cursor_.next_int(), number_of_kind = cursor_.next_int(), entity = cursor_.next_int();
     const int n_numbers = cursor_.next_int();
-    const Kind& kind = kind_of(tag, number_of_kind);
-    read_corners(tag, kind, list_of_entity({dimension(kind.shape), entity}));
+    const GmshKind& kind = kind_of(tag, number_of_kind);
+    read_or_skip_corners(tag, kind, list_of_entity({dimension(kind.shape), entity}));
     for (int n = n_numbers - kind.n_nodes; n > 0; --n) cursor_.next_int();
   }
 
@@ -383,7 +429,14 @@ class Reader {
       const int tag = cursor_.next_int();
       if (t == 0) group = group_number(tag);
     }
-    read_corners(number, kind_of(number, number_of_kind), list_of_group(group));
+    read_or_skip_corners(number, kind_of(number, number_of_kind), list_of_group(group));
+  }
+
+  void read_or_skip_corners(std::int64_t tag, const GmshKind& kind, int groups) {
+    const int dimension_of_kind = dimension(kind.shape);
+    lists_in_use_.insert({dimension_of_kind, groups});
+    const bool is_wanted = wanted_.elements[dimension_of_kind].has(n_elements_[dimension_of_kind]++);
+    is_wanted ? read_corners(tag, kind, groups) : skip_tags(kind.n_nodes);
   }
 
   int list_of_group(int group) {
@@ -398,12 +451,28 @@ class Reader {
     if (cursor_.binary()) cursor_.skip_line_break();
   }
 
-  void reserve_nodes(std::size_t n) {
+  std::int64_t n_elements_so_far() const {
+    return std::accumulate(n_elements_.begin(), n_elements_.end(), std::int64_t{0});
+  }
+
+  template <class Number>
+  void skip_numbers(std::int64_t n) {
+    cursor_.skip_numbers(static_cast<std::size_t>(n), sizeof(Number));
+  }
+
+  void skip_tags(std::int64_t n) { version_ == 41 ? skip_numbers<std::int64_t>(n) : skip_numbers<int>(n); }
+
+  void reserve_nodes(std::size_t announced) {
+    const auto n = static_cast<std::size_t>(announced_range(announced).overlap(wanted_.nodes).size());
     result_.node_tags.reserve(n);
     result_.coordinates.reserve(n);
   }
 
-  void reserve_elements(std::size_t n) {
+  /// For the share of all as if all were of one dimension.
+  void reserve_elements(std::size_t announced) {
+    std::int64_t most = 0;
+    for (const Range& range : wanted_.elements) most += announced_range(announced).overlap(range).size();
+    const std::size_t n = std::min(announced, static_cast<std::size_t>(most));
     result_.element_tags.reserve(n);
     result_.shapes.reserve(n);
     result_.element_groups.reserve(n);
@@ -415,16 +484,15 @@ class Reader {
     for (auto& x : point) x = cursor_.next_real();
   }
 
-  const Kind& kind_of(std::int64_t tag, int number_of_kind) const {
-    const auto kind = kinds.find(number_of_kind);
-    if (kind != kinds.end()) return kind->second;
+  const GmshKind& kind_of(std::int64_t tag, int number_of_kind) const {
+    if (const GmshKind* kind = find_kind(number_of_kind)) return *kind;
     cursor_.fail(
         fmt::format("element {} is of gmsh's kind {}; allowed are triangles and quadrangles in 2D, tetrahedra, "
                     "pyramids, prisms and hexahedra in 3D, of first or second order (Mesh.ElementOrder)",
                     tag, number_of_kind));
   }
 
-  void read_corners(std::int64_t tag, const Kind& kind, int groups) {
+  void read_corners(std::int64_t tag, const GmshKind& kind, int groups) {
     result_.begin_element(tag, kind.shape, groups);
     const int n_corners = n_nodes(kind.shape);
     for (int i = 0; i < n_corners; ++i) result_.element_nodes.push_back(next_tag());
@@ -436,12 +504,11 @@ class Reader {
 
   void name_the_unnamed() {
     static constexpr std::array<const char*, 4> entities = {"point", "curve", "surface", "volume"};
-    for (std::size_t e = 0; e < result_.n_elements(); ++e) {
-      const int dimension_of_element = dimension(result_.shapes[e]);
-      for (const int group : result_.group_lists[result_.element_groups[e]]) {
-        std::string& name = result_.group_names[{dimension_of_element, group}];
-        if (name.empty()) name = name_of({dimension_of_element, group});
-        if (name.empty()) name = fmt::format("{}_{}", entities[dimension_of_element], group);
+    for (const auto& [dimension, list] : lists_in_use_) {
+      for (const int group : result_.group_lists[list]) {
+        std::string& name = result_.group_names[{dimension, group}];
+        if (name.empty()) name = name_of({dimension, group});
+        if (name.empty()) name = fmt::format("{}_{}", entities[dimension], group);
       }
     }
   }
@@ -454,12 +521,18 @@ class Reader {
     return "";
   }
 
-  void check_total(const char* what, std::size_t announced, std::size_t found) {
-    if (found == announced) return;
+  static Range announced_range(std::size_t n) { return {0, static_cast<std::int64_t>(n)}; }
+
+  void check_total(const char* what, std::size_t announced, std::int64_t found) {
+    if (found == static_cast<std::int64_t>(announced)) return;
     cursor_.fail(fmt::format("{} {} announced, {} found: the file is damaged", announced, what, found));
   }
 
   FileCursor cursor_;
+  Parts wanted_;
+  std::int64_t n_nodes_ = 0;  // read or passed over so far
+  std::array<std::int64_t, 4> n_elements_{};
+  std::set<std::pair<int, int>> lists_in_use_;  // dimension and place in group_lists of all elements
   MeshFile result_;
   int version_ = 0;  // 22 for 2.2
   std::set<std::string> sections_;
@@ -472,8 +545,31 @@ class Reader {
   std::map<int, int> list_of_group_;  // 2.x
 };
 
+Counts counts_of(const std::string& file) {
+  Reader reader(file, nothing);
+  reader.read();
+  return reader.counts();
+}
+
 }  // namespace
 
-MeshFile read_gmsh_file(const std::string& file) { return Reader(file).read(); }
+MeshFile read_gmsh_file(const std::string& file, const Share& share) {
+  return Reader(file, share.is_whole() ? all : share_of(counts_of(file), share)).read();
+}
+
+MeshFile read_gmsh_file(const base::Comm& comm, const std::string& file) {
+  const Share share = {comm.getRank(), comm.getSize()};
+  Parts wanted = all;
+  if (!share.is_whole()) {
+    Counts counts;
+    base::on_all_ranks(comm, [&] {
+      if (share.rank == 0) counts = counts_of(file);
+    });
+    wanted = share_of(base::gather_on_all(comm, counts), share);
+  }
+  MeshFile part;
+  base::on_all_ranks(comm, [&] { part = Reader(file, wanted).read(); });
+  return part;
+}
 
 }  // namespace perimorph::mesh_files

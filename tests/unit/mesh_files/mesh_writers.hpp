@@ -4,6 +4,8 @@
 
 #include <exodusII.h>
 
+#include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -113,6 +115,51 @@ void write_exodus(const mesh::Mesh<dim>& mesh, const std::string& file_name, con
     put_set<dim>(file, EX_SIDE_SET, ++id, options.named ? name : "", elements, numbers);
   }
 }
+
+// ---- Exodus files by their parts ----
+
+struct Block {
+  std::int64_t id;
+  std::string type;
+  int n_nodes;
+  std::vector<std::int64_t> nodes;
+};
+struct Sides {
+  std::int64_t id;
+  std::vector<std::int64_t> elements, sides;
+};
+using Points = std::vector<std::array<double, 3>>;
+
+/// An Exodus file with numbers of 64 bits and no names.
+inline void write_exodus_parts(const std::string& name, const Points& points, const std::vector<Block>& blocks,
+                               const std::vector<Sides>& sets, const std::vector<std::int64_t>& node_set = {}) {
+  const ExodusWriter file(name, EX_CLOBBER | EX_NETCDF4 | EX_ALL_INT64_DB | EX_ALL_INT64_API);
+  std::int64_t n_elements = 0;
+  for (const Block& block : blocks) n_elements += static_cast<std::int64_t>(block.nodes.size()) / block.n_nodes;
+  file.check(ex_put_init(file.id(), "a test", 3, static_cast<std::int64_t>(points.size()), n_elements,
+                         static_cast<std::int64_t>(blocks.size()), node_set.empty() ? 0 : 1,
+                         static_cast<std::int64_t>(sets.size())));
+  std::array<std::vector<double>, 3> axes;
+  for (const auto& point : points) {
+    for (std::size_t d = 0; d < 3; ++d) axes[d].push_back(point[d]);
+  }
+  file.check(ex_put_coord(file.id(), axes[0].data(), axes[1].data(), axes[2].data()));
+  for (const Block& block : blocks) {
+    file.check(ex_put_block(file.id(), EX_ELEM_BLOCK, block.id, block.type.c_str(),
+                            static_cast<std::int64_t>(block.nodes.size()) / block.n_nodes, block.n_nodes, 0, 0, 0));
+    file.check(ex_put_conn(file.id(), EX_ELEM_BLOCK, block.id, block.nodes.data(), nullptr, nullptr));
+  }
+  for (const Sides& set : sets) {
+    file.check(ex_put_set_param(file.id(), EX_SIDE_SET, set.id, static_cast<std::int64_t>(set.elements.size()), 0));
+    file.check(ex_put_set(file.id(), EX_SIDE_SET, set.id, set.elements.data(), set.sides.data()));
+  }
+  if (!node_set.empty()) {
+    file.check(ex_put_set_param(file.id(), EX_NODE_SET, 1, static_cast<std::int64_t>(node_set.size()), 0));
+    file.check(ex_put_set(file.id(), EX_NODE_SET, 1, node_set.data(), nullptr));
+  }
+}
+
+// ---- ANSYS archives ----
 
 /// A component, with runs of three numbers or more as first and -last.
 inline std::string component(const std::string& name, const std::string& kind, const std::vector<int>& numbers) {

@@ -57,6 +57,7 @@ std::vector<T> gather_on_root(const Comm& comm, const std::vector<T>& values) {
 template <class T>
 std::vector<T> gather_on_all(const Comm& comm, const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
+  if (comm.getSize() == 1) return values;
   const MPI_Comm mpi = mpi_communicator(comm);
   const int count = static_cast<int>(values.size());
   std::vector<int> counts(comm.getSize());
@@ -75,6 +76,7 @@ std::vector<std::vector<T>> exchange(const Comm& comm, const std::vector<std::ve
   const int n_ranks = comm.getSize();
   PERIMORPH_ASSERT(static_cast<int>(outgoing.size()) == n_ranks, "messages to {} of {} ranks", outgoing.size(),
                    n_ranks);
+  if (n_ranks == 1) return outgoing;
   std::vector<int> send_counts(n_ranks), receive_counts(n_ranks);
   for (int r = 0; r < n_ranks; ++r) send_counts[r] = static_cast<int>(outgoing[r].size());
   MPI_Alltoall(send_counts.data(), 1, MPI_INT, receive_counts.data(), 1, MPI_INT, mpi);
