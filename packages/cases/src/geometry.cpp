@@ -1,7 +1,6 @@
 #include "perimorph/cases/geometry.hpp"
 
 #include "perimorph/base/errors.hpp"
-#include "perimorph/mesh/distribute.hpp"
 #include "perimorph/mesh_files/read_mesh.hpp"
 
 namespace perimorph::cases {
@@ -73,11 +72,7 @@ mesh::Mesh<dim> read_closed_mesh(const Case& input, const std::string& folder) {
 
 template <int dim>
 mesh::Mesh<dim> read_closed_parts(const base::Comm& comm, const Case& input, const std::string& folder) {
-  mesh::Mesh<dim> whole;
-  base::on_all_ranks(comm, [&] {
-    if (comm.getRank() == 0) whole = read_closed_mesh<dim>(input, folder);
-  });
-  return mesh::distribute(comm, whole, 0.);
+  return mesh_files::mesh_and_read_parts<dim>(comm, input.mesh.file, folder, input.mesh.scale, input.mesh.meshing);
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                          \

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "perimorph/base/parallel.hpp"
 #include "perimorph/mesh/mesh.hpp"
 #include "perimorph/mesh_files/gmsh.hpp"
 
@@ -32,5 +33,13 @@ mesh::Mesh<dim> read_mesh(const std::string& file, double scale = 1.);
 template <int dim>
 mesh::Mesh<dim> mesh_and_read(const std::string& file, const std::string& folder, double scale = 1.,
                               const MeshingLimits& limits = {});
+
+/// The same in parts, as mesh::distribute() makes them without a halo's width, with the notes on rank 0. Of gmsh's and
+/// Exodus' files each rank keeps its own slice only; those of other formats rank 0 reads as a whole. Collective.
+/// @throws UserError, as above, on all ranks; of several mistakes in a file it may name another one.
+/// @param folder that all ranks see
+template <int dim>
+mesh::Mesh<dim> mesh_and_read_parts(const base::Comm& comm, const std::string& file, const std::string& folder,
+                                    double scale = 1., const MeshingLimits& limits = {});
 
 }  // namespace perimorph::mesh_files
