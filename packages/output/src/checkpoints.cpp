@@ -14,7 +14,7 @@ using base::GlobalId;
 
 namespace {
 
-constexpr GlobalId current_format = 7;
+constexpr GlobalId current_format = 8;
 constexpr int solves_between = 20;  // states within an increment from which it goes on to the last bit
 constexpr const char *format_name = "format", *case_name = "case";
 
@@ -88,15 +88,9 @@ Checkpoints<dim>::Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const 
       last_remembered_(now()),
       last_written_(last_remembered_) {}
 
-/// On rank 0: reads one; returns it, or why the run cannot go on from it.
+/// Why the run cannot go on from one that has been read; "" if it can. On rank 0.
 template <int dim>
-std::variant<io::Checkpoint, std::string> Checkpoints<dim>::try_to_read(io::CheckpointId id) const {
-  io::Checkpoint checkpoint;
-  try {
-    checkpoint = folder_.read(id);
-  } catch (const base::UserError& error) {
-    return error.what();
-  }
+std::string Checkpoints<dim>::trouble_with(const io::Checkpoint& checkpoint, io::CheckpointId id) const {
   check_origin(checkpoint);
   const Teuchos::SerialComm<int> alone;
   DataSetReader reader(alone, checkpoint);
@@ -108,13 +102,35 @@ std::variant<io::Checkpoint, std::string> Checkpoints<dim>::try_to_read(io::Chec
     return fmt::format("{}/{}: it cannot be continued: it {}: {} is of no use without it", folder_.path(), file.name,
                        trouble, folder_.file(id));
   }
+  return "";
+}
+
+/// Reads one; returns it, or why the run cannot go on from it. Collective.
+template <int dim>
+std::variant<io::Checkpoint, std::string> Checkpoints<dim>::try_to_read(io::CheckpointId id) const {
+  io::Checkpoint checkpoint;
+  try {
+    checkpoint = folder_.read(*comm_, id);
+  } catch (const base::UserError& error) {
+    return error.what();
+  }
+  std::string trouble;
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) trouble = trouble_with(checkpoint, id);
+  });
+  trouble = base::broadcast(*comm_, trouble);
+  if (!trouble.empty()) return trouble;
   return checkpoint;
 }
 
-/// On rank 0.
+/// Collective.
 template <int dim>
-io::Checkpoint Checkpoints<dim>::read_newest() const {
-  const auto all = folder_.list();
+std::optional<io::Checkpoint> Checkpoints<dim>::read_newest() const {
+  std::vector<io::CheckpointId> all;
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) all = folder_.list();
+  });
+  all = base::gather_on_all(*comm_, all);
   std::string trouble;
   for (auto newest = all.rbegin(); newest != all.rend(); ++newest) {
     auto found = try_to_read(*newest);
@@ -144,18 +160,12 @@ void Checkpoints<dim>::check_origin(const io::Checkpoint& checkpoint) const {
 
 template <int dim>
 std::optional<io::Checkpoint> Checkpoints<dim>::load() {
-  io::Checkpoint loaded;
-  base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() != 0) return;
-    loaded = read_newest();
-    if (!loaded.integers.empty()) check_origin(loaded);
-  });
-  const bool is_found = base::max(*comm_, static_cast<GlobalId>(!loaded.integers.empty())) > 0;
-  if (!is_found) {
+  auto loaded = read_newest();
+  if (!loaded) {
     log_->info("no checkpoint found: starting from the beginning");
     return {};
   }
-  DataSetReader reader(*comm_, loaded);
+  DataSetReader reader(*comm_, *loaded);
   describe_origin(reader, position_, planned_increments_, loaded_mesh_, refinements_, element_costs_);
   if (comm_->getRank() != 0) element_costs_.clear();
   describe_results(reader, results_.emplace());
@@ -169,7 +179,7 @@ std::optional<io::Checkpoint> Checkpoints<dim>::load() {
 template <int dim>
 std::optional<io::Checkpoint> Checkpoints<dim>::start_of_increment() const {
   if (loaded_ || position_.increment == 0) return loaded_;
-  return gather_state(*comm_, body_, owned_elements_);
+  return slice_state(*comm_, body_, owned_elements_);
 }
 
 template <int dim>
@@ -277,7 +287,7 @@ void Checkpoints<dim>::write(Results<dim>& results) {
   if (is_on_disk_) return;
   PERIMORPH_ASSERT(results_.has_value(), "increment {} has no results", position_.increment);
   results.bring_to_disk();
-  auto checkpoint = gather_state(*comm_, body_, owned_elements_);
+  auto checkpoint = slice_state(*comm_, body_, owned_elements_);
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
     check_results();
@@ -288,8 +298,8 @@ void Checkpoints<dim>::write(Results<dim>& results) {
     auto at_position = *results_;
     at_position.seconds = remembered_seconds_;
     describe_results(writer, at_position);
-    folder_.write(id_of(position_), checkpoint);
   });
+  folder_.write(*comm_, id_of(position_), checkpoint);
   is_on_disk_ = true;
   last_written_ = now();
 }
