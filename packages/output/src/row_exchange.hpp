@@ -59,6 +59,7 @@ class RowExchange {
   std::vector<base::GlobalId> elements_;
   std::vector<std::vector<base::GlobalId>> questions_;  ///< the elements for whose rows each rank asks this one
 
+  std::vector<std::vector<base::GlobalId>> ask(const std::vector<base::GlobalId>& elements) const;
   std::vector<Asker> askers_of(const std::vector<base::GlobalId>& elements) const;
 };
 

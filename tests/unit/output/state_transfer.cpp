@@ -144,6 +144,15 @@ TEST(StateTransfer, NoRankHasMoreThanItsSlice) {
   EXPECT_LE(sliced.integer_rows.at("broken_bonds").n_rows(), 2 * n_rows(2 * n_elements));
 }
 
+TEST(StateTransfer, MoreElementsThanAreSentAtOnce) {
+  const auto comm = Tpetra::getDefaultComm();
+  const auto mesh = distributed_grid(*comm, {512, 300, 512., 300.}, 1.5);
+  const auto owned = output::owned_ids(mesh);
+  const auto sliced = output::slice_state(*comm, state_of(owned), owned);
+  const auto shared = output::share_state<2>(*comm, sliced, mesh);
+  EXPECT_TRUE(shared.displacement == state_of(mesh.element_ids).displacement);
+}
+
 TEST(StateTransfer, BondsOfOneRankAreSharedByAll) {
   const Parts parts;
   const std::size_t n_ranks = parts.comm->getSize(), n = 100000;
