@@ -8,7 +8,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from fixture import EVERY, INCREMENTS, GrowingCrack, changed, plate_mesh, settings
+from fixture import EVERY, HALF, INCREMENTS, GrowingCrack, changed, half_plate_mesh, plate_mesh, settings
 
 
 class Softening(GrowingCrack):
@@ -87,6 +87,21 @@ class Compression(GrowingCrack):
             for row, other in zip(alone, self.rows(), strict=True):
                 for name in ["broken_bonds", "damaged_elements", "dgfe_elements"]:
                     self.assertEqual(row[name], other[name])
+
+
+class SofteningAcrossAPlane(GrowingCrack):
+    """The upper half of the plate of bonds that soften: also bonds with mirror images are remembered."""
+
+    MESH = half_plate_mesh()
+    CASE = changed(Softening.CASE, HALF)
+
+    def test_it_goes_on(self):
+        for ranks, stop in [(1, 12), (2, 11)]:
+            with self.subTest(ranks=ranks, stop=stop):
+                self.run_until(INCREMENTS, *EVERY, ranks=ranks)
+                whole = self.outcome()
+                self.assertGreater(int(whole[0][-1]["broken_bonds"]), 20)
+                self.assert_continues(whole, stop, *EVERY, ranks=ranks)
 
 
 class SeveralMaterials(GrowingCrack):

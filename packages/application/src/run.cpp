@@ -244,7 +244,7 @@ class Run {
         start_on(mesh, body);
       }
       if (end == fracture::LoopEnd::refine) refine_after(*body, refinement, rebalancing);
-      if (end == fracture::LoopEnd::rebalance) start_ = output::gather_state(*comm_, *body);
+      if (end == fracture::LoopEnd::rebalance) start_ = output::slice_state(*comm_, *body);
       if (end == fracture::LoopEnd::stopped) stop();
       if (end == fracture::LoopEnd::done) results->summarize(*body);
       return end == fracture::LoopEnd::done;
@@ -273,12 +273,9 @@ class Run {
   void refine_after(const fracture::Body<dim>& body, model::Refinement<dim>& refinement,
                     output::Rebalancing<dim>& rebalancing) {
     const auto timer = profile_.measure(base::Phase::adapt);
-    const auto state = output::gather_state(*comm_, body);
+    const auto state = output::slice_state(*comm_, body);
     const auto descents = follow(refinement, body.state().flag_points);
-    start_.emplace();
-    base::on_all_ranks(*comm_, [&] {
-      if (comm_->getRank() == 0) start_ = output::refine_state<dim>(state, descents);
-    });
+    start_ = output::refine_state<dim>(*comm_, state, descents);
     const auto costs_before = base::gather_on_root(*comm_, rebalancing.element_costs());
     std::vector<double> costs;
     for (const auto& descent : descents) costs.push_back(costs_before[descent.ancestor]);

@@ -1,6 +1,7 @@
 #include "perimorph/discretization/saved_state.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "perimorph/base/errors.hpp"
 
@@ -33,19 +34,22 @@ void visit_local(const std::vector<Record>& records, const mesh::Mesh<dim>& mesh
   }
 }
 
-/// Calls visit(record, bond) for the records of bonds that this rank holds. Returns how many count here
-/// (BondFamilies::counts_here). Local.
+/// Calls visit(record, bond) for the records of bonds that this rank holds. Local.
 template <int dim, class Record, class Visit>
-GlobalId visit_held(const std::vector<Record>& records, const Topology<dim>& topology, Visit visit) {
+void visit_held(const std::vector<Record>& records, const Topology<dim>& topology, Visit visit) {
   const auto& bonds = topology.bonds();
-  GlobalId n_own = 0;
   visit_local(records, topology.mesh(), [&](const Record& record, const bonds::BondEnds& ends) {
     const auto bond = bonds.find(ends.first_element, ends.first_end, ends.second_element, ends.second_end);
-    if (bond == bonds.n_bonds()) return;
-    visit(record, bond);
-    n_own += bonds.counts_here(bonds.bond(bond));
+    if (bond != bonds.n_bonds()) visit(record, bonds.bond(bond));
   });
-  return n_own;
+}
+
+/// How many of all ranks' records are of bonds whose first element this rank owns. Local.
+template <int dim, class Record>
+GlobalId count_owned(const std::vector<Record>& records, const mesh::Mesh<dim>& mesh) {
+  const std::set<GlobalId> owned(mesh.element_ids.begin(), mesh.element_ids.begin() + mesh.n_owned_elements);
+  return std::count_if(records.begin(), records.end(),
+                       [&](const Record& record) { return owned.count(record.first / elements::max_points) > 0; });
 }
 
 /// What owned elements have at their corners, out of what nodes have. Local.
@@ -111,8 +115,10 @@ SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology) {
 template <int dim>
 BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology) {
   BrokenByCall found;
-  const GlobalId n_own = visit_held(saved.broken, topology, [&](const BrokenBond& broken, bonds::BondId bond) {
-    found[broken.call].push_back(bond);
+  GlobalId n_own = 0;
+  visit_held(saved.broken, topology, [&](const BrokenBond& broken, const bonds::Bond<dim>& bond) {
+    found[broken.call].push_back(bond.id);
+    n_own += topology.bonds().counts_here(bond);
   });
   for (auto& [call, ascending] : found) std::sort(ascending.begin(), ascending.end());
   check_found(base::sum(comm, n_own), saved.counts.broken_bonds, "broken");
@@ -123,11 +129,13 @@ template <int dim>
 bonds::SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved,
                                         const Topology<dim>& topology) {
   bonds::SofteningHistories found;
-  const GlobalId n_own = visit_held(saved.softened, topology, [&](const SoftBond& softened, bonds::BondId bond) {
+  GlobalId n_own = 0;
+  visit_held(saved.softened, topology, [&](const SoftBond& softened, const bonds::Bond<dim>& bond) {
     const auto& [accepted, largest] = softened.largest_stretches;
-    found.push_back({bond, {static_cast<float>(accepted), static_cast<float>(largest)}});
+    found.push_back({bond.id, {static_cast<float>(accepted), static_cast<float>(largest)}});
+    n_own += bond.first_element < topology.mesh().n_owned_elements;
   });
-  check_found(base::sum(comm, n_own), static_cast<GlobalId>(saved.softened.size()), "softened");
+  check_found(base::sum(comm, n_own), base::sum(comm, count_owned(saved.softened, topology.mesh())), "softened");
   return found;
 }
 

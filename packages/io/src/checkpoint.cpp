@@ -1,145 +1,226 @@
 #include "perimorph/io/checkpoint.hpp"
 
-#include <fcntl.h>
-#include <hdf5.h>
-#include <unistd.h>
-
-#include <cerrno>
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <optional>
+#include <sstream>
 
 #include "checksum.hpp"
+#include "descriptor.hpp"
+#include "hdf5_layout.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/io/disk.hpp"
 
 namespace perimorph::io {
+
+using base::GlobalId;
 
 namespace {
 
 constexpr std::size_t n_kept = 2;
 constexpr const char* unfinished = ".part";
 
-/// An HDF5 identifier that is closed when it goes.
-class Handle {
+/// A file that is removed unless it gets its final name. On rank 0; on others there is nothing to remove.
+class UnfinishedFile {
  public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw base::Bug("HDF5 refused a call");
+  UnfinishedFile(const base::Comm& comm, std::string path) : path_(std::move(path)), is_here_(comm.getRank() == 0) {}
+  ~UnfinishedFile() {
+    if (is_here_) std::remove(path_.c_str());
   }
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  void rename_to(const std::string& name) {
+    if (std::rename(path_.c_str(), name.c_str()) != 0) throw std::system_error(errno, std::generic_category());
+    is_here_ = false;
+  }
 
  private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
+  std::string path_;
+  bool is_here_;
 };
 
-void require(bool succeeded) {
-  if (!succeeded) throw base::Bug("HDF5 failed");
+/// Bytes of a file that this rank writes or has read.
+struct Piece {
+  GlobalId offset, size;  ///< [bytes]
+  const char* bytes;
+};
+
+/// What a rank knows of a part of a file.
+struct Part {
+  GlobalId offset, size;  ///< [bytes]
+  Checksum checksum;
+};
+
+using Kind = DataSet::Kind;
+
+template <class Values>
+DataSet described(const std::string& name, Kind kind, const Values& values) {
+  return {name, kind, false, static_cast<GlobalId>(values.size()), 1, 0};
 }
 
-/// HDF5 works in memory only, on the image of a file: it has trouble with disks that fill up.
-Handle in_memory() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // we report what goes wrong
-  return {H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
+/// How many rows the rank has of each data set that is in rows.
+std::vector<GlobalId> row_counts(const Checkpoint& checkpoint) {
+  std::vector<GlobalId> counts;
+  for (const auto& entry : checkpoint.number_rows) counts.push_back(static_cast<GlobalId>(entry.second.n_rows()));
+  for (const auto& entry : checkpoint.integer_rows) counts.push_back(static_cast<GlobalId>(entry.second.n_rows()));
+  return counts;
 }
 
-void put(hid_t file, const std::string& name, hid_t type, std::size_t size, const void* values) {
-  const hsize_t length = size;
-  const Handle space(H5Screate_simple(1, &length, nullptr), H5Sclose);
-  const Handle data(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
-  if (size > 0) require(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+/// All data sets of a checkpoint, those in rows at last. On rank 0.
+/// @param n_rows of all ranks, as row_counts()
+std::vector<DataSet> data_sets(const Checkpoint& checkpoint, const std::vector<GlobalId>& n_rows) {
+  std::vector<DataSet> sets;
+  for (const auto& [name, values] : checkpoint.numbers) sets.push_back(described(name, Kind::numbers, values));
+  for (const auto& [name, values] : checkpoint.integers) sets.push_back(described(name, Kind::integers, values));
+  for (const auto& [name, text] : checkpoint.texts) sets.push_back(described(name, Kind::text, text));
+  auto n = n_rows.begin();
+  const auto add_rows = [&](const auto& all, Kind kind) {
+    for (const auto& [name, rows] : all) {
+      sets.push_back({name, kind, true, *n++, static_cast<GlobalId>(rows.width), 0});
+    }
+  };
+  add_rows(checkpoint.number_rows, Kind::numbers);
+  add_rows(checkpoint.integer_rows, Kind::integers);
+  return sets;
+}
+
+/// The data sets in rows, which rank 0 knows, on all ranks. Collective.
+std::vector<DataSet> share_rows(const base::Comm& comm, const std::vector<DataSet>& sets) {
+  std::vector<GlobalId> numbers;
+  std::string names;
+  for (const auto& set : sets) {
+    if (!set.is_in_rows) continue;
+    numbers.insert(numbers.end(), {static_cast<GlobalId>(set.kind), set.n_rows, set.width, set.offset});
+    names += set.name + '\0';
+  }
+  numbers = base::gather_on_all(comm, numbers);
+  std::istringstream all_names(base::broadcast(comm, names));
+  std::vector<DataSet> shared(numbers.size() / 4);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    const auto* n = numbers.data() + 4 * i;
+    shared[i] = {"", static_cast<Kind>(n[0]), true, n[1], n[2], n[3]};
+    std::getline(all_names, shared[i].name, '\0');
+  }
+  return shared;
 }
 
 template <class Values>
-Values get(hid_t data, hid_t type) {
-  const Handle space(H5Dget_space(data), H5Sclose);
-  const hssize_t size = H5Sget_simple_extent_npoints(space);
-  require(size >= 0);
-  Values values(static_cast<std::size_t>(size), {});
-  if (size > 0) require(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
+Piece piece(GlobalId offset, const Values& values) {
+  const auto size = static_cast<GlobalId>(values.size() * sizeof(values[0]));
+  return {offset, size, reinterpret_cast<const char*>(values.data())};
+}
+
+/// What rank 0 writes: all but rows.
+std::vector<Piece> small_pieces(const Checkpoint& checkpoint, const Structure& structure) {
+  std::vector<Piece> pieces;
+  for (const auto& stretch : structure.stretches) pieces.push_back(piece(stretch.offset, stretch.content));
+  for (const auto& set : structure.sets) {
+    if (set.is_in_rows) continue;
+    if (set.kind == Kind::numbers) pieces.push_back(piece(set.offset, checkpoint.numbers.at(set.name)));
+    if (set.kind == Kind::integers) pieces.push_back(piece(set.offset, checkpoint.integers.at(set.name)));
+    if (set.kind == Kind::text) pieces.push_back(piece(set.offset, checkpoint.texts.at(set.name)));
+  }
+  return pieces;
+}
+
+/// What each rank writes: its rows.
+/// @param first this rank's first row of each data set
+std::vector<Piece> pieces_of_rows(const Checkpoint& checkpoint, const std::vector<DataSet>& sets,
+                                  const std::vector<GlobalId>& first) {
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const auto& set = sets[i];
+    const GlobalId offset = set.offset + first[i] * set.row_bytes();
+    const bool are_numbers = set.kind == Kind::numbers;
+    pieces.push_back(are_numbers ? piece(offset, checkpoint.number_rows.at(set.name).values)
+                                 : piece(offset, checkpoint.integer_rows.at(set.name).values));
+  }
+  return pieces;
+}
+
+Part part_of(const Piece& piece) {
+  return {piece.offset, piece.size, checksum_of({piece.bytes, static_cast<std::size_t>(piece.size)})};
+}
+
+/// The checksum of a file, of which these are all the parts.
+Checksum joined_checksum(std::vector<Part> parts, GlobalId size) {
+  parts.erase(std::remove_if(parts.begin(), parts.end(), [](const Part& part) { return part.size == 0; }), parts.end());
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.offset < b.offset; });
+  Checksum checksum = 0;
+  GlobalId end = 0;
+  for (const auto& part : parts) {
+    PERIMORPH_ASSERT(part.offset == end, "a part begins at byte {}, the one before ends at {}", part.offset, end);
+    checksum = joined(checksum, part.checksum, part.size);
+    end += part.size;
+  }
+  PERIMORPH_ASSERT(end == size, "{} bytes of {}", end, size);
+  return checksum;
+}
+
+/// Of a part of a file, without holding it.
+Part part_of(const Descriptor& file, GlobalId from, GlobalId to) {
+  Part part{from, to - from, 0};
+  std::string block(static_cast<std::size_t>(std::min<GlobalId>(1 << 20, to - from)), '\0');
+  while (from < to) {
+    const auto n = std::min(block.size(), static_cast<std::size_t>(to - from));
+    file.read(block.data(), n, from);
+    part.checksum = checksum_of({block.data(), n}, part.checksum);
+    from += static_cast<GlobalId>(n);
+  }
+  return part;
+}
+
+template <class Values>
+Values values_in(const Descriptor& file, GlobalId offset, GlobalId n) {
+  Values values(static_cast<std::size_t>(n), {});
+  file.read(reinterpret_cast<char*>(values.data()), values.size() * sizeof(values[0]), offset);
   return values;
 }
 
-std::string image_of(const Checkpoint& checkpoint) {
-  constexpr std::size_t growth = 1 << 20;  // of the image, bytes
-  const Handle access = in_memory();
-  require(H5Pset_fapl_core(access, growth, false) >= 0);
-  const Handle file(H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
-  for (const auto& [name, values] : checkpoint.numbers) {
-    put(file, name, H5T_NATIVE_DOUBLE, values.size(), values.data());
-  }
-  for (const auto& [name, values] : checkpoint.integers) {
-    put(file, name, H5T_NATIVE_LLONG, values.size(), values.data());
-  }
-  for (const auto& [name, text] : checkpoint.texts) put(file, name, H5T_NATIVE_CHAR, text.size(), text.data());
-  require(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0);
-  const auto size = H5Fget_file_image(file, nullptr, 0);
-  require(size > 0);
-  std::string image(static_cast<std::size_t>(size), '\0');
-  require(H5Fget_file_image(file, image.data(), image.size()) == size);
-  return image;
+/// This rank's share of the rows.
+template <class Value>
+Rows<Value> rows_in(const Descriptor& file, const DataSet& set, const base::Comm& comm) {
+  const GlobalId from = base::first_of_share(comm, set.n_rows, comm.getRank());
+  const GlobalId to = base::first_of_share(comm, set.n_rows, comm.getRank() + 1);
+  return {static_cast<std::size_t>(set.width),
+          values_in<std::vector<Value>>(file, set.offset + from * set.row_bytes(), (to - from) * set.width)};
 }
 
-Checkpoint checkpoint_in(std::string image) {
-  const Handle access = in_memory();
-  require(H5Pset_fapl_core(access, image.size(), false) >= 0);
-  require(H5Pset_file_image(access, image.data(), image.size()) >= 0);
-  const Handle file(H5Fopen("image", H5F_ACC_RDONLY, access), H5Fclose);
-  H5G_info_t group;
-  require(H5Gget_info(file, &group) >= 0);
+/// What is not in rows, on rank 0.
+Checkpoint small_sets_in(const Descriptor& file, const std::vector<DataSet>& sets) {
   Checkpoint checkpoint;
-  for (hsize_t i = 0; i < group.nlinks; ++i) {
-    char name[256];
-    require(H5Lget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT) > 0);
-    const Handle data(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
-    const Handle type(H5Dget_type(data), H5Tclose);
-    if (H5Tget_class(type) == H5T_FLOAT) {
-      checkpoint.numbers[name] = get<std::vector<double>>(data, H5T_NATIVE_DOUBLE);
-    } else if (H5Tget_size(type) == 1) {
-      checkpoint.texts[name] = get<std::string>(data, H5T_NATIVE_CHAR);
-    } else {
-      checkpoint.integers[name] = get<std::vector<base::GlobalId>>(data, H5T_NATIVE_LLONG);
-    }
+  for (const auto& [name, kind, is_in_rows, n, width, offset] : sets) {
+    if (is_in_rows) continue;
+    if (kind == Kind::numbers) checkpoint.numbers[name] = values_in<std::vector<double>>(file, offset, n);
+    if (kind == Kind::integers) checkpoint.integers[name] = values_in<std::vector<GlobalId>>(file, offset, n);
+    if (kind == Kind::text) checkpoint.texts[name] = values_in<std::string>(file, offset, n);
   }
   return checkpoint;
 }
 
-/// The checksum stands behind the image, where HDF5 does not look: it is of all bytes, HDF5's own structures among
-/// them.
-std::string with_checksum(std::string image) {
-  const Checksum checksum = checksum_of(image);
-  return image.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
-}
-
-/// The image that a file's bytes hold, if they are those that were written.
-std::string checked_image(std::string bytes) {
-  require(bytes.size() > sizeof(Checksum));
-  const std::size_t size = bytes.size() - sizeof(Checksum);
+/// Throws Bug unless the file ends with the checksum of all bytes before: HDF5 has none of its own structures.
+void check_sum(const Descriptor& file, const std::vector<Part>& parts, GlobalId size) {
   Checksum there = 0;
-  std::memcpy(&there, bytes.data() + size, sizeof there);
-  require(there == checksum_of({bytes.data(), size}));
-  bytes.resize(size);
-  return bytes;
+  file.read(reinterpret_cast<char*>(&there), sizeof there, size);
+  if (there != joined_checksum(parts, size)) throw base::Bug("a wrong checksum");
 }
 
-/// Writes the bytes and waits until the disk has them; returns what went wrong, or 0.
-int write_to_disk(const std::string& file, const std::string& bytes) {
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  if (descriptor < 0) return errno;
-  int error = 0;
-  for (std::size_t done = 0; done < bytes.size() && error == 0;) {
-    const auto n = ::write(descriptor, bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno != EINTR) error = errno;
-    if (n > 0) done += static_cast<std::size_t>(n);
+/// This rank's first rows of each data set, and all ranks' numbers of rows. Collective.
+std::pair<std::vector<GlobalId>, std::vector<GlobalId>> number_rows(const base::Comm& comm,
+                                                                    const Checkpoint& checkpoint) {
+  const auto counts = row_counts(checkpoint);
+  const auto all = base::gather_on_all(comm, counts);
+  PERIMORPH_ASSERT(all.size() == counts.size() * static_cast<std::size_t>(comm.getSize()),
+                   "{} data sets in rows here, {} on all {} ranks", counts.size(), all.size(), comm.getSize());
+  std::vector<GlobalId> first(counts.size(), 0), n_rows(counts.size(), 0);
+  for (int rank = 0; rank < comm.getSize(); ++rank) {
+    if (rank == comm.getRank()) first = n_rows;
+    for (std::size_t i = 0; i < counts.size(); ++i) n_rows[i] += all[rank * counts.size() + i];
   }
-  if (error == 0 && fsync(descriptor) != 0) error = errno;
-  if (close(descriptor) != 0 && error == 0) error = errno;
-  return error;
+  return {first, n_rows};
 }
 
 }  // namespace
@@ -163,27 +244,100 @@ std::string CheckpointFolder::file(CheckpointId id) const {
   return (std::filesystem::path(folder_) / (name + ".h5")).string();
 }
 
-void CheckpointFolder::write(CheckpointId id, const Checkpoint& checkpoint) const {
-  const std::string name = file(id), beside = name + unfinished;
-  int error = write_to_disk(beside, with_checksum(image_of(checkpoint)));
-  if (error == 0 && std::rename(beside.c_str(), name.c_str()) != 0) error = errno;
-  if (error != 0) {
-    std::remove(beside.c_str());
-    throw base::ComputationError(fmt::format("{}: the checkpoint cannot be written: {}", name, std::strerror(error)));
-  }
-  bring_to_disk(folder_);
-  const auto all = list();
-  for (std::size_t i = 0; i + n_kept < all.size(); ++i) std::remove(file(all[i]).c_str());
+// Rank 0 makes the file, as long as it will be; then each rank writes what it has, by plain calls of the system: what
+// fails is known, and all ranks agree on it. The checksum is joined from those of what the ranks have written.
+void CheckpointFolder::write(const base::Comm& comm, CheckpointId id, const Checkpoint& checkpoint) const {
+  const std::string name = file(id);
+  const bool is_root = comm.getRank() == 0;
+  const auto together = [&](const std::function<void()>& work) {
+    base::on_all_ranks(comm, [&] {
+      try {
+        work();
+      } catch (const std::system_error& error) {
+        throw base::ComputationError(
+            fmt::format("{}: the checkpoint cannot be written: {}", name, error.code().message()));
+      }
+    });
+  };
+  const auto [first, n_rows] = number_rows(comm, checkpoint);
+  UnfinishedFile beside(comm, name + unfinished);
+  Structure structure;
+  together([&, &n_rows = n_rows] {
+    if (!is_root) return;
+    structure = lay_out(data_sets(checkpoint, n_rows));
+    Descriptor(beside.path(), O_WRONLY | O_CREAT | O_TRUNC).set_size(structure.size + GlobalId{sizeof(Checksum)});
+  });
+  const auto rows = share_rows(comm, structure.sets);
+  std::vector<Part> parts;
+  together([&, &first = first] {
+    auto pieces = is_root ? small_pieces(checkpoint, structure) : std::vector<Piece>();
+    for (const auto& piece : pieces_of_rows(checkpoint, rows, first)) pieces.push_back(piece);
+    Descriptor to(beside.path(), O_WRONLY);
+    for (const auto& piece : pieces) {
+      to.write(piece.bytes, static_cast<std::size_t>(piece.size), piece.offset);
+      parts.push_back(part_of(piece));
+    }
+    to.bring_to_disk_and_close();
+  });
+  parts = base::gather_on_root(comm, parts);
+  together([&] {
+    if (!is_root) return;
+    const Checksum checksum = joined_checksum(parts, structure.size);
+    Descriptor to(beside.path(), O_WRONLY);
+    to.write(reinterpret_cast<const char*>(&checksum), sizeof checksum, structure.size);
+    to.bring_to_disk_and_close();
+    beside.rename_to(name);
+    bring_to_disk(folder_);
+    const auto all = list();
+    for (std::size_t i = 0; i + n_kept < all.size(); ++i) std::remove(file(all[i]).c_str());
+  });
 }
 
-Checkpoint CheckpointFolder::read(CheckpointId id) const {
-  std::ifstream stream(file(id), std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  try {
-    return checkpoint_in(checked_image(std::move(bytes)));
-  } catch (const base::Bug&) {
-    throw base::UserError(fmt::format("{}: the checkpoint cannot be read, or is damaged", file(id)));
-  }
+// Each rank reads its share of the bytes for the checksum, and then its share of all rows.
+Checkpoint CheckpointFolder::read(const base::Comm& comm, CheckpointId id) const {
+  const std::string name = file(id);
+  const bool is_root = comm.getRank() == 0;
+  const auto together = [&](const std::function<void()>& work) {
+    base::on_all_ranks(comm, [&] {
+      const auto refusal = base::UserError(fmt::format("{}: the checkpoint cannot be read, or is damaged", name));
+      try {
+        work();
+      } catch (const std::system_error&) {
+        throw refusal;
+      } catch (const base::Bug&) {
+        throw refusal;
+      }
+    });
+  };
+  std::optional<Descriptor> from;
+  GlobalId size = 0;
+  together([&] {
+    from.emplace(name, O_RDONLY);
+    if (is_root) size = std::max(from->size() - GlobalId{sizeof(Checksum)}, GlobalId{0});
+  });
+  size = base::max(comm, size);
+  std::vector<Part> parts(1);
+  together([&] {
+    const auto begin = [&](int rank) { return base::first_of_share(comm, size, rank); };
+    parts[0] = part_of(*from, begin(comm.getRank()), begin(comm.getRank() + 1));
+  });
+  parts = base::gather_on_root(comm, parts);
+  std::vector<DataSet> sets;
+  together([&] {
+    if (!is_root) return;
+    check_sum(*from, parts, size);
+    sets = data_sets_of(name);
+  });
+  const auto rows = share_rows(comm, sets);
+  Checkpoint checkpoint;
+  together([&] {
+    checkpoint = small_sets_in(*from, sets);
+    for (const auto& set : rows) {
+      if (set.kind == Kind::numbers) checkpoint.number_rows[set.name] = rows_in<double>(*from, set, comm);
+      if (set.kind == Kind::integers) checkpoint.integer_rows[set.name] = rows_in<GlobalId>(*from, set, comm);
+    }
+  });
+  return checkpoint;
 }
 
 void CheckpointFolder::remove_after(CheckpointId id) const {

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "data_sets.hpp"
-#include "perimorph/base/directory.hpp"
 #include "perimorph/base/errors.hpp"
 #include "perimorph/mesh/fingerprint.hpp"
 
@@ -15,9 +14,9 @@ using base::GlobalId;
 
 namespace {
 
-constexpr GlobalId current_format = 7;
+constexpr GlobalId current_format = 8;
 constexpr int solves_between = 20;  // states within an increment from which it goes on to the last bit
-constexpr const char *format_name = "format", *case_name = "case";
+constexpr const char *format_name = "format", *case_name = "case", *costs_name = "element_costs";
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -53,16 +52,15 @@ void describe_results(DataSets& sets, State& results) {
 }
 
 /// What a checkpoint belongs to, but for the case.
-template <class DataSets, class Position, class Increments, class Mesh, class Costs>
-void describe_origin(DataSets& sets, Position& position, Increments& planned_increments, Mesh& mesh, Mesh& refinements,
-                     Costs& element_costs) {
+template <class DataSets, class Position, class Increments, class Mesh>
+void describe_origin(DataSets& sets, Position& position, Increments& planned_increments, Mesh& mesh,
+                     Mesh& refinements) {
   sets.integers("increment", position.increment, position.growths, position.damage_iterations, position.is_solved,
                 position.accuracy, position.broken_before);
   sets.numbers("load_step", position.step.begin, position.step.size);
   sets.integers("planned_increments", planned_increments);
   sets.list("mesh", mesh);
   sets.list("refinements", refinements);
-  sets.list("element_costs", element_costs);
 }
 
 io::CheckpointId id_of(const fracture::LoopPosition& position) {
@@ -89,15 +87,9 @@ Checkpoints<dim>::Checkpoints(const Teuchos::RCP<const base::Comm>& comm, const 
       last_remembered_(now()),
       last_written_(last_remembered_) {}
 
-/// On rank 0: reads one; returns it, or why the run cannot go on from it.
+/// Why the run cannot go on from one that has been read; "" if it can. On rank 0.
 template <int dim>
-std::variant<io::Checkpoint, std::string> Checkpoints<dim>::try_to_read(io::CheckpointId id) const {
-  io::Checkpoint checkpoint;
-  try {
-    checkpoint = folder_.read(id);
-  } catch (const base::UserError& error) {
-    return error.what();
-  }
+std::string Checkpoints<dim>::trouble_with(const io::Checkpoint& checkpoint, io::CheckpointId id) const {
   check_origin(checkpoint);
   const Teuchos::SerialComm<int> alone;
   DataSetReader reader(alone, checkpoint);
@@ -109,13 +101,35 @@ std::variant<io::Checkpoint, std::string> Checkpoints<dim>::try_to_read(io::Chec
     return fmt::format("{}/{}: it cannot be continued: it {}: {} is of no use without it", folder_.path(), file.name,
                        trouble, folder_.file(id));
   }
+  return "";
+}
+
+/// Reads one; returns it, or why the run cannot go on from it. Collective.
+template <int dim>
+std::variant<io::Checkpoint, std::string> Checkpoints<dim>::try_to_read(io::CheckpointId id) const {
+  io::Checkpoint checkpoint;
+  try {
+    checkpoint = folder_.read(*comm_, id);
+  } catch (const base::UserError& error) {
+    return error.what();
+  }
+  std::string trouble;
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) trouble = trouble_with(checkpoint, id);
+  });
+  trouble = base::broadcast(*comm_, trouble);
+  if (!trouble.empty()) return trouble;
   return checkpoint;
 }
 
-/// On rank 0.
+/// Collective.
 template <int dim>
-io::Checkpoint Checkpoints<dim>::read_newest() const {
-  const auto all = folder_.list();
+std::optional<io::Checkpoint> Checkpoints<dim>::read_newest() const {
+  std::vector<io::CheckpointId> all;
+  base::on_all_ranks(*comm_, [&] {
+    if (comm_->getRank() == 0) all = folder_.list();
+  });
+  all = base::gather_on_all(*comm_, all);
   std::string trouble;
   for (auto newest = all.rbegin(); newest != all.rend(); ++newest) {
     auto found = try_to_read(*newest);
@@ -145,23 +159,14 @@ void Checkpoints<dim>::check_origin(const io::Checkpoint& checkpoint) const {
 
 template <int dim>
 std::optional<io::Checkpoint> Checkpoints<dim>::load() {
-  io::Checkpoint loaded;
-  base::on_all_ranks(*comm_, [&] {
-    if (comm_->getRank() != 0) return;
-    loaded = read_newest();
-    if (!loaded.integers.empty()) check_origin(loaded);
-  });
-  const bool is_found = base::max(*comm_, static_cast<GlobalId>(!loaded.integers.empty())) > 0;
-  if (!is_found) {
+  auto loaded = read_newest();
+  if (!loaded) {
     log_->info("no checkpoint found: starting from the beginning");
     return {};
   }
-  DataSetReader reader(*comm_, loaded);
-  std::vector<double> costs;  // of all elements
-  describe_origin(reader, position_, planned_increments_, loaded_mesh_, refinements_, costs);
-  const base::Directory slices(*comm_, static_cast<GlobalId>(costs.size()), {});
-  element_costs_.emplace(costs.begin() + slices.begin(comm_->getRank()),
-                         costs.begin() + slices.begin(comm_->getRank() + 1));
+  DataSetReader reader(*comm_, *loaded);
+  describe_origin(reader, position_, planned_increments_, loaded_mesh_, refinements_);
+  element_costs_ = loaded->number_rows.at(costs_name).values;
   describe_results(reader, results_.emplace());
   results_->seconds_before = results_->seconds;
   log_->info("restart          after increment {}, {} broken bonds{}", position_.increment, results_->totals.broken,
@@ -173,7 +178,7 @@ std::optional<io::Checkpoint> Checkpoints<dim>::load() {
 template <int dim>
 std::optional<io::Checkpoint> Checkpoints<dim>::start_of_increment() const {
   if (loaded_ || position_.increment == 0) return loaded_;
-  return gather_state(*comm_, body_, owned_elements_);
+  return slice_state(*comm_, body_, owned_elements_);
 }
 
 template <int dim>
@@ -282,20 +287,20 @@ void Checkpoints<dim>::write(Results<dim>& results) {
   if (is_on_disk_) return;
   PERIMORPH_ASSERT(results_.has_value(), "increment {} has no results", position_.increment);
   results.bring_to_disk();
-  auto checkpoint = gather_state(*comm_, body_, owned_elements_);
-  const auto costs = base::gather_on_root(*comm_, element_costs_.value());
+  auto checkpoint = slice_state(*comm_, body_, owned_elements_);
+  checkpoint.number_rows[costs_name] = {1, element_costs_.value()};
   base::on_all_ranks(*comm_, [&] {
     if (comm_->getRank() != 0) return;
     check_results();
     DataSetWriter writer(checkpoint);
     writer.integers(format_name, current_format);
     checkpoint.texts[case_name] = case_lines_;
-    describe_origin(writer, position_, planned_increments_, mesh_identity_, refinements_, costs);
+    describe_origin(writer, position_, planned_increments_, mesh_identity_, refinements_);
     auto at_position = *results_;
     at_position.seconds = remembered_seconds_;
     describe_results(writer, at_position);
-    folder_.write(id_of(position_), checkpoint);
   });
+  folder_.write(*comm_, id_of(position_), checkpoint);
   is_on_disk_ = true;
   last_written_ = now();
 }

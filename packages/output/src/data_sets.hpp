@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@
 
 namespace perimorph::output {
 
-/// Local, on rank 0.
+/// Small data sets, whole; on rank 0. Local.
 class DataSetWriter {
  public:
   explicit DataSetWriter(io::Checkpoint& checkpoint) : checkpoint_(checkpoint) {}
@@ -52,7 +53,7 @@ class DataSetWriter {
   io::Checkpoint& checkpoint_;
 };
 
-/// What rank 0 has read goes to all ranks: every call is collective.
+/// Small data sets go from rank 0 to all ranks: every call is collective.
 class DataSetReader {
  public:
   DataSetReader(const base::Comm& comm, const io::Checkpoint& checkpoint) : comm_(comm), checkpoint_(checkpoint) {}
@@ -105,6 +106,59 @@ class DataSetReader {
     using Values = typename Map::mapped_type;
     return base::gather_on_all(comm_, comm_.getRank() == 0 ? sets.at(name) : Values());
   }
+};
+
+/// Large data sets, of which each rank has some rows: a row for each of its records. Local, on all ranks.
+class RowWriter {
+ public:
+  explicit RowWriter(io::Checkpoint& checkpoint) : checkpoint_(checkpoint) {}
+
+  /// Members of each record.
+  template <class Record, class... Member>
+  void records(const char* name, const std::vector<Record>& records, Member... members) {
+    auto& rows = checkpoint_.integer_rows[name] = {sizeof...(members), {}};
+    for (const auto& record : records) (rows.values.push_back(record.*members), ...);
+  }
+  /// An array of numbers in each record.
+  template <class Record, class Array>
+  void arrays(const char* name, const std::vector<Record>& records, Array Record::*member) {
+    auto& rows = checkpoint_.number_rows[name] = {std::tuple_size_v<Array>, {}};
+    for (const auto& record : records) {
+      rows.values.insert(rows.values.end(), (record.*member).begin(), (record.*member).end());
+    }
+  }
+
+ private:
+  io::Checkpoint& checkpoint_;
+};
+
+/// The rows that this rank has. Local.
+class RowReader {
+ public:
+  explicit RowReader(const io::Checkpoint& checkpoint) : checkpoint_(checkpoint) {}
+
+  template <class Record, class... Member>
+  void records(const char* name, std::vector<Record>& records, Member... members) {
+    const auto& rows = checkpoint_.integer_rows.at(name);
+    PERIMORPH_ASSERT(rows.width == sizeof...(members), "{}: {} values in a row", name, rows.width);
+    records.resize(rows.n_rows());
+    auto value = rows.values.begin();
+    for (auto& record : records) ((record.*members = *value++), ...);
+  }
+  /// Of records that are there already.
+  template <class Record, class Array>
+  void arrays(const char* name, std::vector<Record>& records, Array Record::*member) {
+    const auto& rows = checkpoint_.number_rows.at(name);
+    PERIMORPH_ASSERT(rows.values.size() == records.size() * std::tuple_size_v<Array>, "{}: {} values of {} records",
+                     name, rows.values.size(), records.size());
+    auto value = rows.values.begin();
+    for (auto& record : records) {
+      for (auto& number : record.*member) number = *value++;
+    }
+  }
+
+ private:
+  const io::Checkpoint& checkpoint_;
 };
 
 }  // namespace perimorph::output

@@ -5,6 +5,7 @@
 
 #include "data_sets.hpp"
 #include "perimorph/base/errors.hpp"
+#include "row_exchange.hpp"
 
 namespace perimorph::output {
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr const char *displacement_name = "displacement", *starts_name = "starts";
 
-/// All but displacements, which each rank has a part of.
+/// All that is alike on all ranks.
 template <class DataSets, class State, class Flag>
 void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
   auto& counts = state.counts;
@@ -29,6 +30,11 @@ void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
                 state.break_calls_before_topology);
   sets.records("flagged_elements", state.flag_points, &Flag::element, &Flag::growth);
   sets.arrays("flag_points", state.flag_points, &Flag::centroid);
+}
+
+/// Bonds, of which each rank has some.
+template <class RowSets, class State>
+void describe_bonds(RowSets& sets, State& state) {
   sets.records("broken_bonds", state.broken, &BrokenBond::first, &BrokenBond::second, &BrokenBond::call);
   sets.records("softened_bonds", state.softened, &SoftBond::first, &SoftBond::second);
   sets.arrays("largest_stretches", state.softened, &SoftBond::largest_stretches);
@@ -37,32 +43,12 @@ void describe(DataSets& sets, State& state, Flag /*type of flag points*/) {
   sets.arrays("slips_and_friction", state.slips, &Slip::values);
 }
 
-/// Values of elements by their ids.
-std::vector<double> in_order(const std::vector<double>& values, const std::vector<GlobalId>& ids, std::size_t stride) {
-  std::vector<double> ordered(values.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    std::copy_n(values.begin() + static_cast<long>(i * stride), stride,
-                ordered.begin() + ids[i] * static_cast<long>(stride));
-  }
-  return ordered;
-}
-
-/// Every rank's elements' values out of those of all elements, which rank 0 has. Collective.
-std::vector<double> fetch(const base::Comm& comm, const std::vector<GlobalId>& elements, std::size_t stride,
-                          const std::vector<double>& all) {
-  std::vector<std::vector<GlobalId>> asked(comm.getSize());
-  asked[0] = elements;
-  std::vector<std::vector<double>> answers(comm.getSize());
-  const auto questions = base::exchange(comm, asked);
-  for (std::size_t rank = 0; rank < questions.size(); ++rank) {
-    for (const GlobalId element : questions[rank]) {
-      PERIMORPH_DEBUG_ASSERT((element + 1) * static_cast<GlobalId>(stride) <= static_cast<GlobalId>(all.size()),
-                             "element {} of {} values, {} each", element, all.size(), stride);
-      const auto values = all.begin() + element * static_cast<GlobalId>(stride);
-      answers[rank].insert(answers[rank].end(), values, values + static_cast<GlobalId>(stride));
-    }
-  }
-  return base::exchange(comm, answers)[0];
+/// A state of which rank 0 has all, and the others nothing. Collective.
+io::Checkpoint gathered(const base::Comm& comm, const io::Checkpoint& sliced) {
+  io::Checkpoint whole = sliced;
+  for (auto& entry : whole.number_rows) entry.second.values = base::gather_on_root(comm, entry.second.values);
+  for (auto& entry : whole.integer_rows) entry.second.values = base::gather_on_root(comm, entry.second.values);
+  return whole;
 }
 
 /// Values at the corners of elements, on a finer mesh.
@@ -95,22 +81,15 @@ std::vector<GlobalId> undivided(const std::vector<mesh::Descent>& descents) {
   return ids;
 }
 
-}  // namespace
-
+/// On rank 0, which has all of the state.
 template <int dim>
-std::vector<FlagPoint<dim>> share_flag_points(const base::Comm& comm, const io::Checkpoint& gathered) {
-  SavedState<dim> state;
-  DataSetReader reader(comm, gathered);
-  describe(reader, state, FlagPoint<dim>{});
-  return state.flag_points;
-}
-
-template <int dim>
-io::Checkpoint refine_state(const io::Checkpoint& gathered, const std::vector<mesh::Descent>& descents) {
+io::Checkpoint refined(const io::Checkpoint& whole, const std::vector<mesh::Descent>& descents) {
   const Teuchos::SerialComm<int> alone;
   SavedState<dim> state;
-  DataSetReader reader(alone, gathered);
+  DataSetReader reader(alone, whole);
   describe(reader, state, FlagPoint<dim>{});
+  RowReader row_reader(whole);
+  describe_bonds(row_reader, state);
   const auto ids = undivided(descents);
   const auto n_before = static_cast<GlobalId>(ids.size()), n_after = static_cast<GlobalId>(descents.size());
   const auto follow = [&](GlobalId& element) {
@@ -135,11 +114,33 @@ io::Checkpoint refine_state(const io::Checkpoint& gathered, const std::vector<me
   io::Checkpoint finer;
   DataSetWriter writer(finer);
   describe(writer, state, FlagPoint<dim>{});
-  for (const char* name : {displacement_name, starts_name}) {
-    const auto found = gathered.numbers.find(name);
-    if (found != gathered.numbers.end()) finer.numbers[name] = interpolated<dim>(found->second, descents);
+  RowWriter row_writer(finer);
+  describe_bonds(row_writer, state);
+  for (const auto& [name, rows] : whole.number_rows) {
+    const bool is_of_elements = name == displacement_name || name == starts_name;
+    if (is_of_elements) finer.number_rows[name] = {rows.width, interpolated<dim>(rows.values, descents)};
   }
   return finer;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<FlagPoint<dim>> share_flag_points(const base::Comm& comm, const io::Checkpoint& sliced) {
+  SavedState<dim> state;
+  DataSetReader reader(comm, sliced);
+  describe(reader, state, FlagPoint<dim>{});
+  return state.flag_points;
+}
+
+template <int dim>
+io::Checkpoint refine_state(const base::Comm& comm, const io::Checkpoint& sliced,
+                            const std::vector<mesh::Descent>& descents) {
+  io::Checkpoint state = gathered(comm, sliced);  // as the refined mesh is whole on rank 0
+  base::on_all_ranks(comm, [&] {
+    if (comm.getRank() == 0) state = refined<dim>(state, descents);
+  });
+  return state;
 }
 
 template <int dim>
@@ -148,53 +149,62 @@ std::vector<GlobalId> owned_ids(const mesh::Mesh<dim>& mesh) {
 }
 
 template <int dim>
-io::Checkpoint gather_state(const base::Comm& comm, const SavedState<dim>& state,
-                            const std::vector<GlobalId>& owned_elements) {
-  constexpr auto stride = static_cast<std::size_t>(SavedState<dim>::values_per_element);
-  SavedState<dim> whole = state;
-  whole.broken = base::gather_on_root(comm, state.broken);
-  whole.softened = base::gather_on_root(comm, state.softened);
-  whole.slips = base::gather_on_root(comm, state.slips);
-  const auto ids = base::gather_on_root(comm, owned_elements);
-  const auto displacement = base::gather_on_root(comm, state.displacement);
-  const auto starts = base::gather_on_root(comm, state.starts);
+io::Checkpoint slice_state(const base::Comm& comm, const SavedState<dim>& state,
+                           const std::vector<GlobalId>& owned_elements) {
+  constexpr auto width = static_cast<std::size_t>(SavedState<dim>::values_per_element);
   io::Checkpoint checkpoint;
-  if (comm.getRank() != 0) return checkpoint;
-
   DataSetWriter writer(checkpoint);
-  describe(writer, whole, FlagPoint<dim>{});
-  checkpoint.numbers[displacement_name] = in_order(displacement, ids, stride);
-  if (!starts.empty()) checkpoint.numbers[starts_name] = in_order(starts, ids, stride);
+  if (comm.getRank() == 0) describe(writer, state, FlagPoint<dim>{});
+
+  SavedState<dim> slice;
+  slice.broken = sorted_among_ranks(comm, state.broken);
+  slice.softened = sorted_among_ranks(comm, state.softened);
+  slice.slips = sorted_among_ranks(comm, state.slips);
+  RowWriter row_writer(checkpoint);
+  describe_bonds(row_writer, slice);
+
+  const auto n_elements = base::sum(comm, static_cast<GlobalId>(owned_elements.size()));
+  const auto holders = RowHolders::evenly(comm, n_elements);
+  const auto write = [&](const char* name, const std::vector<double>& values) {
+    checkpoint.number_rows[name] = {width, rows_to_holders(comm, holders, owned_elements, width, values)};
+  };
+  write(displacement_name, state.displacement);
+  if (base::max(comm, static_cast<GlobalId>(!state.starts.empty())) > 0) write(starts_name, state.starts);
   return checkpoint;
 }
 
 template <int dim>
-io::Checkpoint gather_state(const base::Comm& comm, const fracture::Body<dim>& body) {
-  return gather_state(comm, body.save(), owned_ids(body.mesh()));
+io::Checkpoint slice_state(const base::Comm& comm, const fracture::Body<dim>& body) {
+  return slice_state(comm, body.save(), owned_ids(body.mesh()));
 }
 
 template <int dim>
-SavedState<dim> share_state(const base::Comm& comm, const io::Checkpoint& gathered, const mesh::Mesh<dim>& mesh) {
-  SavedState<dim> state;
-  DataSetReader reader(comm, gathered);
+SavedState<dim> share_state(const base::Comm& comm, const io::Checkpoint& sliced, const mesh::Mesh<dim>& mesh) {
+  SavedState<dim> state, slice;
+  DataSetReader reader(comm, sliced);
   describe(reader, state, FlagPoint<dim>{});
-  const std::vector<GlobalId> elements(mesh.element_ids.begin(), mesh.element_ids.begin() + mesh.n_real_elements());
-  const auto share = [&](const char* name) {
-    const auto all = comm.getRank() == 0 ? gathered.numbers.at(name) : std::vector<double>();
-    return fetch(comm, elements, SavedState<dim>::values_per_element, all);
-  };
-  state.displacement = share(displacement_name);
-  if (base::max(comm, static_cast<GlobalId>(gathered.numbers.count(starts_name))) > 0)
-    state.starts = share(starts_name);
+  RowReader row_reader(sliced);
+  describe_bonds(row_reader, slice);
+
+  const auto& displacement = sliced.number_rows.at(displacement_name);
+  const RowExchange rows(comm, RowHolders::as_they_are(comm, displacement.n_rows()),
+                         {mesh.element_ids.begin(), mesh.element_ids.begin() + mesh.n_real_elements()});
+  state.displacement = rows.fetch(displacement.width, displacement.values);
+  const auto starts = sliced.number_rows.find(starts_name);  // on all ranks or none
+  if (starts != sliced.number_rows.end()) state.starts = rows.fetch(starts->second.width, starts->second.values);
+  state.broken = rows.select(slice.broken);
+  state.softened = rows.select(slice.softened);
+  state.slips = rows.select(slice.slips);
   return state;
 }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                                               \
-  template std::vector<GlobalId> owned_ids(const mesh::Mesh<dim>&);                                              \
-  template io::Checkpoint gather_state(const base::Comm&, const SavedState<dim>&, const std::vector<GlobalId>&); \
-  template io::Checkpoint gather_state(const base::Comm&, const fracture::Body<dim>&);                           \
-  template std::vector<FlagPoint<dim>> share_flag_points(const base::Comm&, const io::Checkpoint&);              \
-  template io::Checkpoint refine_state<dim>(const io::Checkpoint&, const std::vector<mesh::Descent>&);           \
+#define PERIMORPH_INSTANTIATE(dim)                                                                              \
+  template std::vector<GlobalId> owned_ids(const mesh::Mesh<dim>&);                                             \
+  template io::Checkpoint slice_state(const base::Comm&, const SavedState<dim>&, const std::vector<GlobalId>&); \
+  template io::Checkpoint slice_state(const base::Comm&, const fracture::Body<dim>&);                           \
+  template std::vector<FlagPoint<dim>> share_flag_points(const base::Comm&, const io::Checkpoint&);             \
+  template io::Checkpoint refine_state<dim>(const base::Comm&, const io::Checkpoint&,                           \
+                                            const std::vector<mesh::Descent>&);                                 \
   template SavedState<dim> share_state(const base::Comm&, const io::Checkpoint&, const mesh::Mesh<dim>&);
 
 PERIMORPH_INSTANTIATE(2)

@@ -71,6 +71,7 @@ class Directory {
   /// The same, with one value for each item of this rank's slice. Collective.
   template <class T>
   std::vector<T> answer_all(const std::vector<T>& of_slice) const {
+    PERIMORPH_ASSERT(of_slice.size() == n_here(), "{} values of {} items", of_slice.size(), n_here());
     std::vector<std::vector<T>> answers(known_.size());
     for (std::size_t rank = 0; rank < known_.size(); ++rank) {
       for (const GlobalId place : known_[rank]) answers[rank].push_back(of_slice[place]);

@@ -27,6 +27,10 @@ GlobalId max(const Comm& comm, GlobalId value);
 /// @param values this rank's, as many on every rank; on return the sums
 void sum(const Comm& comm, std::vector<double>& values);
 
+/// The first of n items in a rank's share, if all ranks have about as many, in order; n itself after the last rank.
+/// Local.
+inline GlobalId first_of_share(const Comm& comm, GlobalId n, int rank) { return n * rank / comm.getSize(); }
+
 /// Concatenates every rank's values in the order of ranks: on rank 0 only (empty elsewhere), or on all. Collective.
 template <class T>
 std::vector<T> gather_on_root(const Comm& comm, const std::vector<T>& values);

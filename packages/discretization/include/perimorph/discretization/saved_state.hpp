@@ -39,17 +39,17 @@ struct SavedState : History<dim> {
 template <int dim>
 SavedState<dim> save(const State<dim>& state, const Topology<dim>& topology);
 
-/// The broken bonds that this rank holds, out of those of all ranks. Collective.
-/// @throws UserError if bonds of the state do not exist in this body.
+/// The broken bonds that this rank holds, out of at least those of which it has the first element, owned or not.
+/// Collective. @throws UserError if bonds of the state do not exist in this body.
 template <int dim>
 BrokenByCall find_broken(const base::Comm& comm, const SavedState<dim>& saved, const Topology<dim>& topology);
 
-/// The softened bonds that this rank holds, out of those of all ranks. Collective. @throws as above.
+/// The softened bonds that this rank holds, likewise. Collective. @throws as above.
 template <int dim>
 bonds::SofteningHistories find_softened(const base::Comm& comm, const SavedState<dim>& saved,
                                         const Topology<dim>& topology);
 
-/// The slips between points of local elements, out of those of all ranks. Local.
+/// The slips between points of local elements, likewise. Local.
 template <int dim>
 bonds::Slips<dim> find_slips(const SavedState<dim>& saved, const Topology<dim>& topology);
 

@@ -73,7 +73,8 @@ class Body {
   discretization::SavedState<dim> save() const { return discretization::save(state_, topology_); }
 
   /// The state of a new body becomes this one, to the last bit if the number of ranks is the same.
-  /// @param saved the displacement of all local elements, and all broken bonds of the body
+  /// @param saved the displacement of all local elements, and at least the bonds of which this rank has the first
+  /// element
   /// @throws UserError if bonds of the state do not exist in this body.
   void restore(const discretization::SavedState<dim>& saved);
 

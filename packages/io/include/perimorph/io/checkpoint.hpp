@@ -5,15 +5,27 @@
 #include <tuple>
 #include <vector>
 
-#include "perimorph/base/algebra.hpp"
+#include "perimorph/base/parallel.hpp"
 
 namespace perimorph::io {
 
-/// What a checkpoint holds, by name. Lives on rank 0.
+/// Values in rows, of which each rank has some: all rows are those of rank 0, then those of rank 1, and so on.
+template <class Value>
+struct Rows {
+  std::size_t width = 1;      ///< values in a row
+  std::vector<Value> values;  ///< of this rank's rows, one after the other
+
+  std::size_t n_rows() const { return values.size() / width; }
+};
+
+/// What a checkpoint holds, by name. What is small is on rank 0 (whatever others have is ignored); no rank has all of
+/// what is large: the names of rows, and their widths, are the same on all ranks.
 struct Checkpoint {
   std::map<std::string, std::vector<double>> numbers;
   std::map<std::string, std::vector<base::GlobalId>> integers;
   std::map<std::string, std::string> texts;
+  std::map<std::string, Rows<double>> number_rows;
+  std::map<std::string, Rows<base::GlobalId>> integer_rows;
 };
 
 /// When a checkpoint was taken: after an increment, and after so many solves of the next one, if any. Ordered by time.
@@ -27,7 +39,8 @@ struct CheckpointId {
 
 /// Checkpoints of one folder: HDF5 files "checkpoint-000012.h5", named after their increment, and within the next one
 /// "checkpoint-000012_000040.h5". A file is written beside its final name, brought to the disk and then renamed, so
-/// that one with this name is whole; a checksum of all its bytes stands at its end. Local (rank 0).
+/// that one with this name is whole; a checksum of all its bytes stands at its end. Its bytes are the same for any
+/// number of ranks, all of which must see the folder. Local (rank 0), but for write() and read().
 class CheckpointFolder {
  public:
   explicit CheckpointFolder(std::string folder) : folder_(std::move(folder)) {}
@@ -40,12 +53,13 @@ class CheckpointFolder {
   /// The name of a checkpoint's file.
   std::string file(CheckpointId id) const;
 
-  /// Writes a checkpoint, waits until the disk has it, and removes all but the last two.
-  /// @throws ComputationError naming the file, if it cannot be written; nothing half-written is left.
-  void write(CheckpointId id, const Checkpoint& checkpoint) const;
+  /// Writes a checkpoint, each rank its own rows; waits until the disk has it, and removes all but the last two.
+  /// Collective. @throws ComputationError naming the file, if it cannot be written; nothing half-written is left.
+  void write(const base::Comm& comm, CheckpointId id, const Checkpoint& checkpoint) const;
 
+  /// What a checkpoint holds; each rank has about as many rows. Collective.
   /// @throws UserError naming the file, if it cannot be read or is damaged.
-  Checkpoint read(CheckpointId id) const;
+  Checkpoint read(const base::Comm& comm, CheckpointId id) const;
 
   /// Removes all after this one, and what a run that was killed has left unfinished; waits until the disk knows.
   /// @throws ComputationError if the disk fails.

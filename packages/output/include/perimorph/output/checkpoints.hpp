@@ -107,7 +107,8 @@ class Checkpoints {
 
   double last_remembered_, last_written_;  ///< [s]
 
-  io::Checkpoint read_newest() const;
+  std::optional<io::Checkpoint> read_newest() const;
+  std::string trouble_with(const io::Checkpoint& checkpoint, io::CheckpointId id) const;
   std::variant<io::Checkpoint, std::string> try_to_read(io::CheckpointId id) const;
   void check_origin(const io::Checkpoint& checkpoint) const;
   void check_results() const;
