@@ -190,8 +190,6 @@ class Level {
   Values b_, x_, residual_;
 
   static constexpr int n_symmetric_sweeps = 10;  ///< on the coarsest level
-  /// Levels with two visits for each of the one above. On many ranks visits to small levels are what scales worst.
-  static constexpr int n_doubled = 3;
 
   /// @param n_passes over the matrix
   base::ProfilerMark mark_visit(double n_passes) const {
@@ -205,7 +203,7 @@ class Level {
     restriction_->apply(residual_,
                         [this](int row, const auto& sum) { at<coarse>(below_->right_hand_side(), row) = sum; });
     below_->solve();
-    if (number_ < n_doubled) below_->improve();
+    below_->improve();
     prolongation_->apply(below_->solution(), [this](int row, const auto& sum) { at<size>(x_, row) += sum; });
     smoother_.update_ghosts(x_);
     smoother_.sweep_backward(b_, x_);

@@ -13,9 +13,8 @@ struct CycleLevel {
   Teuchos::RCP<const Matrix> matrix, restriction, prolongation;
 };
 
-/// One cycle, a W on its upper levels and a V below them, as a linear operator, symmetric and positive definite if the
-/// matrices are. Everything inside is single precision: the cycle is bound by memory, and a preconditioner need not be
-/// exact.
+/// One W-cycle as a linear operator, symmetric and positive definite if the matrices are. Everything inside is single
+/// precision: the cycle is bound by memory, and a preconditioner need not be exact.
 ///
 /// It smooths by a forward sweep of Gauss-Seidel over blocks (nodes, aggregates) before the coarse correction and by a
 /// backward one after it. Between ranks the sweeps are Jacobi's, made convergent by half the sum of the neglected
