@@ -12,12 +12,10 @@ AS_IT_IS = Variant()
 AS_IT_WAS = Variant("within", 99)  # before this prediction was made
 VARIANTS = {
     "as they are": AS_IT_IS,
-    "as they were: aggregates within ranks, a W-cycle": AS_IT_WAS,
+    "as they were: aggregates within ranks": AS_IT_WAS,
     "as they were, but for those that are no coarser": Variant("stop", 99),
-    "a W-cycle on all": Variant("across", 99),
-    "a V-cycle below level 2": Variant("across", 2),
-    "a V-cycle below level 1": Variant("across", 1),
-    **{f"Rows per Rank = {rows}": Variant("across", 3, rows) for rows in (100, 200, 1000, 2000)}}
+    **{f"a V-cycle below level {level}": Variant("across", level) for level in (1, 3, 5)},
+    **{f"Rows per Rank = {rows}": Variant("across", 99, rows) for rows in (50, 100, 200, 1000)}}
 
 
 def print_counts_check(models):

@@ -27,7 +27,7 @@ Machine = collections.namedtuple("Machine", "latency overhead bandwidth memory c
 # the rows of those that hold it ("across" the ranks of before); "within" ranks, also where they have but one each, so that levels
 # get no coarser; the same, but the levels end there ("stop"). doubled: levels down to this one are visited twice for each visit
 # to the one above, those below once.
-Variant = collections.namedtuple("Variant", "aggregates doubled rows_per_rank", defaults=("across", 3, 500))
+Variant = collections.namedtuple("Variant", "aggregates doubled rows_per_rank", defaults=("across", 99, 500))
 
 # Of one counted run. parts: {number of message_counts: {column: number}}
 Counted = collections.namedtuple("Counted", "model ranks unknowns iterations parts")
