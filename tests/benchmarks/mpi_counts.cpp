@@ -1,6 +1,6 @@
-// A profiler of MPI for tools/studies/scaling-study --count: a library to be loaded before MPI's (LD_PRELOAD), which
-// counts what a solve sends in each of its parts (base::ProfilerMark), and writes a table to the file that
-// PERIMORPH_MPI_COUNTS names when MPI ends.
+// A profiler of MPI for tools/studies/scaling-study --count and predict-scaling: a library to be loaded before MPI's
+// (LD_PRELOAD), which counts what a solve sends in each of its parts (base::ProfilerMark), and writes a table to the
+// file that PERIMORPH_MPI_COUNTS names when MPI ends.
 
 #include <mpi.h>
 
@@ -8,6 +8,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <vector>
 
 namespace {
@@ -18,15 +19,18 @@ constexpr int most_parts = 32;
 
 /// Of one rank in one part, without the parts within it.
 struct Counts {
-  double visits = 0., messages = 0., bytes = 0., reductions = 0., others = 0., read = 0., seconds = 0.;
+  double visits = 0., messages = 0., bytes = 0., reductions = 0., others = 0., read = 0., rows = 0., holders = 0.,
+         seconds = 0., processor_seconds = 0.;
 };
 constexpr int n_counts = sizeof(Counts) / sizeof(double);
+/// Rows are the unknowns of the last visit; a rank with any of them is a holder.
 constexpr std::array<const char*, n_counts> names = {
-    "visits", "messages", "bytes", "reductions", "other_collectives", "bytes_read", "seconds"};
+    "visits",     "messages", "bytes",   "reductions", "other_collectives",
+    "bytes_read", "rows",     "holders", "seconds",    "processor_seconds"};
 
 std::array<Counts, most_parts> parts;
 std::vector<int> open_parts;  // the innermost last; only what lies in iterations counts
-double since = 0.;
+double since = 0., processor_since = 0.;
 
 Counts* innermost() { return open_parts.empty() ? nullptr : &parts[open_parts.back()]; }
 
@@ -45,16 +49,23 @@ void note(double Counts::*count) {
 
 void pass_time() {
   const double now = PMPI_Wtime();
-  if (Counts* const part = innermost()) part->seconds += now - since;
+  const double processor_now = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  if (Counts* const part = innermost()) {
+    part->seconds += now - since;
+    part->processor_seconds += processor_now - processor_since;
+  }
   since = now;
+  processor_since = processor_now;
 }
 
-void begin(int part, double bytes_read) {
+void begin(int part, double bytes_read, double rows) {
   if (part >= most_parts || (part > 0 && open_parts.empty())) return;
   pass_time();
   open_parts.push_back(part);
   parts[part].visits += 1.;
   parts[part].read += bytes_read;
+  parts[part].rows = rows;
+  parts[part].holders = rows > 0. ? 1. : 0.;
 }
 
 void end(int part) {
@@ -63,7 +74,7 @@ void end(int part) {
   open_parts.pop_back();
 }
 
-/// part,ranks that count in it,then each count's largest value and its sum over the ranks
+/// part,then each count's largest value and its sum over the ranks
 void write_table(const char* file) {
   int rank = 0;
   PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -95,8 +106,9 @@ int MPI_Pcontrol(const int level, ...) {
   std::va_list arguments;
   va_start(arguments, level);
   const double bytes_read = va_arg(arguments, double);
+  const double rows = va_arg(arguments, double);
   va_end(arguments);
-  begin(level - iterations, bytes_read);
+  begin(level - iterations, bytes_read, rows);
   return MPI_SUCCESS;
 }
 

@@ -24,7 +24,8 @@ void MatrixFreeTangent<dim>::apply(const MultiVector& x, MultiVector& y, Teuchos
   PERIMORPH_DEBUG_ASSERT(x.getMap()->isSameAs(*getDomainMap()) && y.getMap()->isSameAs(*getRangeMap()),
                          "other unknowns than the space's");
   PERIMORPH_ASSERT(&x != &y, "the result would replace the argument while it is read");
-  const base::ProfilerMark mark(base::ProfilerMark::tangent, static_cast<double>(bytes()));
+  const base::ProfilerMark mark(base::ProfilerMark::tangent, static_cast<double>(bytes()),
+                                static_cast<double>(space_.n_owned()));
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto one = x.getVector(column);
     const auto change = space_.expand_change(*one);

@@ -37,14 +37,25 @@ Teuchos::RCP<const Matrix> moved(const Teuchos::RCP<const Matrix>& matrix, const
 
 }  // namespace
 
-std::vector<CycleLevel> gather_small_levels(std::vector<CycleLevel> levels, int fewest_rows) {
-  PERIMORPH_ASSERT(fewest_rows >= 1, "{} rows", fewest_rows);
-  Map fine = levels.front().matrix->getRowMap();
-  int n_fine_holders = fine->getComm()->getSize();
+int n_holders_of(const Matrix& matrix, int most, int fewest_rows) {
+  return static_cast<int>(
+      std::clamp(matrix.getGlobalNumRows() / fewest_rows, Tpetra::global_size_t{1}, Tpetra::global_size_t(most)));
+}
+
+std::size_t first_on_fewer_ranks(const std::vector<CycleLevel>& levels, int n_ranks, int fewest_rows) {
   for (std::size_t l = 1; l < levels.size(); ++l) {
-    const auto n_rows = levels[l].matrix->getGlobalNumRows();
-    const int n_holders = std::clamp(static_cast<int>(n_rows / fewest_rows), 1, n_fine_holders);
-    if (n_holders == fine->getComm()->getSize()) {
+    if (n_holders_of(*levels[l].matrix, n_ranks, fewest_rows) < n_ranks) return l;
+  }
+  return levels.size();
+}
+
+std::vector<CycleLevel> gather_small_levels(std::vector<CycleLevel> levels, int n_ranks, int fewest_rows) {
+  PERIMORPH_ASSERT(n_ranks >= 1 && fewest_rows >= 1, "{} rows on {} ranks", fewest_rows, n_ranks);
+  Map fine = levels.front().matrix->getRowMap();
+  int n_fine_holders = n_ranks;
+  for (std::size_t l = 1; l < levels.size(); ++l) {
+    const int n_holders = n_holders_of(*levels[l].matrix, n_fine_holders, fewest_rows);
+    if (n_holders == n_ranks) {
       fine = levels[l].matrix->getRowMap();
       continue;
     }

@@ -251,7 +251,7 @@ LinearSolver::Outcome LinearSolver::run_conjugate_gradients(const MultiVector& r
   list->set("Maximum Iterations", parameters_.max_iterations);
   list->set("Convergence Tolerance", relative_tolerance);
   Belos::BlockCGSolMgr<double, MultiVector, Operator> solver(problem, list);
-  const base::ProfilerMark mark(base::ProfilerMark::iterations, 0.);
+  const base::ProfilerMark mark(base::ProfilerMark::iterations, 0., static_cast<double>(solution.getLocalLength()));
   const bool converged = solver.solve() == Belos::Converged;
   return {converged, solver.getNumIters(), ""};
 }

@@ -3,6 +3,7 @@
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <MueLu_Utilities.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
 #include <Tpetra_RowMatrixTransposer.hpp>
 #include <algorithm>
 
@@ -52,6 +53,14 @@ struct OpenHierarchy : MueLu::Hierarchy<double, int, base::GlobalId, Matrix::nod
 
 using Preconditioner = MueLu::TpetraOperator<double, int, base::GlobalId, Matrix::node_type>;
 
+/// Aggregates do not reach beyond their rank: below so many rows for each rank levels hardly get coarser, and MueLu
+/// need not make them. Our cycle has others in their place (Hierarchy::levels()), unless all ranks are to hold all
+/// levels.
+void stop_at_few_rows(Teuchos::ParameterList& list, int n_holders) {
+  constexpr int few = 9;
+  if (n_holders > 1) list.set("coarse: max size", std::max(list.get<int>("coarse: max size"), few * n_holders));
+}
+
 std::vector<CycleLevel> levels_of(const Preconditioner& preconditioner) {
   using LevelMatrix = Xpetra::Matrix<double, int, base::GlobalId, Matrix::node_type>;
   using Utilities = MueLu::Utilities<double, int, base::GlobalId, Matrix::node_type>;
@@ -67,6 +76,30 @@ std::vector<CycleLevel> levels_of(const Preconditioner& preconditioner) {
     levels[l - 1].prolongation = matrix(l, "P");
   }
   return levels;
+}
+
+/// Near null space of a level that MueLu has made, and made another from; otherwise null. Local.
+Teuchos::RCP<const MultiVector> modes_of(const Preconditioner& preconditioner, int level) {
+  using Modes = Xpetra::MultiVector<double, int, base::GlobalId, Matrix::node_type>;
+  using Utilities = MueLu::Utilities<double, int, base::GlobalId, Matrix::node_type>;
+  const auto hierarchy = preconditioner.GetHierarchy();
+  if (level + 1 >= hierarchy->GetNumLevels()) return Teuchos::null;
+  const auto factory = (hierarchy.get()->*(&OpenHierarchy::GetLevelManager))(level)->GetFactory("Nullspace");
+  return Utilities::MV2TpetraMV(
+      hierarchy->GetLevel(level)->template Get<Teuchos::RCP<Modes>>("Nullspace", factory.get()));
+}
+
+/// New values of the matrix that it was made for, whose pattern may be another. Collective.
+void reuse(const Teuchos::RCP<Matrix>& matrix, Preconditioner& preconditioner) {
+  // Tpetra leaves out of a product's pattern what is zero by the values at hand. With others the pattern may be too
+  // small, and it throws on the rank where that is so, while the others wait for it: the coarse matrices get new
+  // patterns.
+  const auto hierarchy = preconditioner.GetHierarchy();
+  for (int l = 1; l < hierarchy->GetNumLevels(); ++l) {
+    const auto products = (hierarchy.get()->*(&OpenHierarchy::GetLevelManager))(l)->GetFactory("A");
+    for (const char* name : {"AP reuse data", "RAP reuse data"}) hierarchy->GetLevel(l)->Delete(name, products.get());
+  }
+  MueLu::ReuseTpetraPreconditioner(matrix, preconditioner);
 }
 
 /// Rows of blocks as sums of another matrix's, with the same columns. Collective.
@@ -116,7 +149,47 @@ Teuchos::RCP<Matrix> weighted_rows(const Matrix& matrix, const Teuchos::RCP<cons
 
 struct Multigrid::Hierarchy {
   Teuchos::RCP<Matrix> matrix;
-  Teuchos::RCP<Preconditioner> preconditioner;
+  Teuchos::ParameterList defaults, overrides;
+  /// MueLu's: of the matrix, and each other one of a level of the one before that fewer ranks hold.
+  std::vector<Teuchos::RCP<Preconditioner>> stages;
+
+  void add_stage(const Teuchos::RCP<Matrix>& of, int n_holders, const NearNullSpace& near_null_space, int block_size) {
+    Teuchos::ParameterList list = defaults;
+    stop_at_few_rows(list, n_holders);
+    list.setParameters(overrides);
+    list.set("number of equations", block_size);
+    auto& data = list.sublist("user data");
+    data.set("Nullspace", near_null_space.modes);
+    if (!near_null_space.coordinates.is_null()) data.set("Coordinates", near_null_space.coordinates);
+    stages.push_back(MueLu::CreateTpetraPreconditioner(Teuchos::rcp_static_cast<Operator>(of), list));
+  }
+
+  /// A stage's levels end with the first that fewer ranks hold; from there on the next stage has aggregates that reach
+  /// as far as the rows of those ranks. Collective.
+  std::vector<CycleLevel> levels(int rows_per_rank) {
+    std::vector<CycleLevel> result;
+    int n_holders = matrix->getComm()->getSize();
+    for (std::size_t stage = 0;; ++stage) {
+      auto its = levels_of(*stages[stage]);
+      const std::size_t last = first_on_fewer_ranks(its, n_holders, rows_per_rank);
+      const auto modes = last < its.size() ? modes_of(*stages[stage], static_cast<int>(last)) : Teuchos::null;
+      if (!modes.is_null()) its.resize(last + 1);
+      its = gather_small_levels(std::move(its), n_holders, rows_per_rank);
+      result.insert(result.end(), its.begin(), its.end());
+      if (modes.is_null()) return result;
+
+      n_holders = n_holders_of(*its.back().matrix, n_holders, rows_per_rank);
+      const auto coarse = Teuchos::rcp_const_cast<Matrix>(its.back().matrix);
+      if (stage + 1 < stages.size()) {
+        reuse(coarse, *stages[stage + 1]);
+      } else {
+        const auto gathered = Teuchos::rcp(new MultiVector(coarse->getRowMap(), modes->getNumVectors()));
+        gathered->doImport(*modes, Tpetra::Import<>(modes->getMap(), coarse->getRowMap()), Tpetra::INSERT);
+        add_stage(coarse, n_holders, {gathered, Teuchos::null}, static_cast<int>(modes->getNumVectors()));
+      }
+      result.pop_back();  // the next stage begins with it
+    }
+  }
 };
 
 template <int dim>
@@ -162,14 +235,10 @@ Multigrid::Multigrid(const Teuchos::RCP<Matrix>& matrix, const NearNullSpace& ne
       rows_per_rank_(rows_per_rank) {
   PERIMORPH_ASSERT(!matrix.is_null() && near_null_space.modes->getLocalLength() == matrix->getNodeNumRows(),
                    "modes of {} rows", near_null_space.modes->getLocalLength());
-  Teuchos::ParameterList list = default_parameters(cycle);
-  list.setParameters(overrides);
-  list.set("number of equations", dim_);
-  auto& data = list.sublist("user data");
-  data.set("Nullspace", near_null_space.modes);
-  data.set("Coordinates", near_null_space.coordinates);
   hierarchy_->matrix = matrix;
-  hierarchy_->preconditioner = MueLu::CreateTpetraPreconditioner(Teuchos::rcp_static_cast<Operator>(matrix), list);
+  hierarchy_->defaults = default_parameters(cycle);
+  hierarchy_->overrides = overrides;
+  hierarchy_->add_stage(matrix, has_own_cycle_ ? matrix->getComm()->getSize() : 1, near_null_space, dim_);
   make_operator();
 }
 
@@ -177,15 +246,7 @@ Multigrid::~Multigrid() = default;
 
 void Multigrid::refresh() {
   PERIMORPH_ASSERT(hierarchy_ != nullptr, "what has moved to another matrix cannot be refreshed");
-  // Tpetra leaves out of a product's pattern what is zero by the values at hand. With others the pattern may be too
-  // small, and it throws on the rank where that is so, while the others wait for it: the coarse matrices get new
-  // patterns.
-  const auto hierarchy = hierarchy_->preconditioner->GetHierarchy();
-  for (int l = 1; l < hierarchy->GetNumLevels(); ++l) {
-    const auto products = (hierarchy.get()->*(&OpenHierarchy::GetLevelManager))(l)->GetFactory("A");
-    for (const char* name : {"AP reuse data", "RAP reuse data"}) hierarchy->GetLevel(l)->Delete(name, products.get());
-  }
-  MueLu::ReuseTpetraPreconditioner(hierarchy_->matrix, *hierarchy_->preconditioner);
+  reuse(hierarchy_->matrix, *hierarchy_->stages.front());
   make_operator();
 }
 
@@ -195,9 +256,9 @@ void Multigrid::refresh_finest(const std::vector<int>& nodes) {
 }
 
 void Multigrid::make_operator() {
-  operator_ = hierarchy_->preconditioner;
+  operator_ = hierarchy_->stages.front();
   if (!has_own_cycle_) return;
-  levels_ = gather_small_levels(levels_of(*hierarchy_->preconditioner), rows_per_rank_);
+  levels_ = hierarchy_->levels(rows_per_rank_);
   make_own_cycle();
 }
 

@@ -195,7 +195,7 @@ class Level {
   base::ProfilerMark mark_visit(double n_passes) const {
     double bytes = n_passes * smoother_.bytes();
     if (below_ != nullptr) bytes += restriction_->bytes() + prolongation_->bytes();
-    return {base::ProfilerMark::finest_level + number_, bytes};
+    return {base::ProfilerMark::finest_level + number_, bytes, static_cast<double>(b_.size())};
   }
 
   /// The coarse correction of x with its residual, and the sweep after it.
