@@ -107,7 +107,9 @@ Mesh<dim> mesh_and_read_parts(const base::Comm& comm, const std::string& file, c
   }
   const auto slice_of = [&](const std::string& name) { return read_slice(comm, name); };
   MeshFile slice = is_meshed ? read_meshed_geometry(readable, file, slice_of) : slice_of(file);
-  if (is_meshed && comm.getRank() == 0) note_undone_commands(file, slice);
+  base::on_all_ranks(comm, [&] {
+    if (is_meshed && comm.getRank() == 0) note_undone_commands(file, slice);
+  });
   return build_parts<dim>(comm, slice, scale);
 }
 

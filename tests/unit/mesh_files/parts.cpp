@@ -10,6 +10,7 @@
 #include "gmsh_file.hpp"
 #include "gmsh_files.hpp"
 #include "mesh_builder.hpp"
+#include "mesh_writers.hpp"
 #include "perimorph/mesh/distribute.hpp"
 #include "unit/mesh/example_meshes.hpp"
 
@@ -23,7 +24,7 @@ using testing::HasSubstr;
 
 /// A file that all ranks read as a whole, under the same name; rank 0 makes it.
 template <class Read>
-MeshFile read_by_all(const base::Comm& comm, const Read& read, const std::function<std::string()>& make) {
+auto read_by_all(const base::Comm& comm, const Read& read, const std::function<std::string()>& make) {
   std::string file;
   base::on_all_ranks(comm, [&] {
     if (comm.getRank() == 0) file = make();
@@ -108,24 +109,29 @@ std::string error_of(const Build& build) {
   return "(no error)";
 }
 
+/// The part is that of the whole mesh, to the last bit.
+template <int dim>
+void expect_part_of(const base::Comm& comm, const Mesh<dim>& whole, const Mesh<dim>& part) {
+  const Mesh<dim> expected = mesh::distribute(comm, comm.getRank() == 0 ? whole : Mesh<dim>(), 0.);
+  expect_same(part, expected, 0x1p-1000);
+  EXPECT_EQ(part.node_ids, expected.node_ids);
+  EXPECT_EQ(part.node_owners, expected.node_owners);
+  EXPECT_EQ(part.element_ids, expected.element_ids);
+  EXPECT_EQ(part.element_owners, expected.element_owners);
+  EXPECT_EQ(part.rank, comm.getRank());
+  EXPECT_EQ(part.n_owned_nodes, expected.n_owned_nodes);
+  EXPECT_EQ(part.n_owned_elements, expected.n_owned_elements);
+  EXPECT_EQ(part.n_global_nodes, whole.n_global_nodes);
+  EXPECT_EQ(part.n_global_elements, whole.n_global_elements);
+  EXPECT_EQ(part.notes, comm.getRank() == 0 ? whole.notes : std::vector<std::string>());
+}
+
 template <int dim>
 void expect_the_same_in_parts(const base::Comm& comm, const MeshFile& file, double scale = 1.) {
   const Mesh<dim> whole = build_mesh<dim>(file, scale);
-  const Mesh<dim> expected = mesh::distribute(comm, comm.getRank() == 0 ? whole : Mesh<dim>(), 0.);
   for (const auto& [way, cuts] : ways_to_cut) {
     SCOPED_TRACE(way);
-    const Mesh<dim> part = build_parts<dim>(comm, slice_of(file, comm, cuts), scale);
-    expect_same(part, expected, 0x1p-1000);
-    EXPECT_EQ(part.node_ids, expected.node_ids);
-    EXPECT_EQ(part.node_owners, expected.node_owners);
-    EXPECT_EQ(part.element_ids, expected.element_ids);
-    EXPECT_EQ(part.element_owners, expected.element_owners);
-    EXPECT_EQ(part.rank, comm.getRank());
-    EXPECT_EQ(part.n_owned_nodes, expected.n_owned_nodes);
-    EXPECT_EQ(part.n_owned_elements, expected.n_owned_elements);
-    EXPECT_EQ(part.n_global_nodes, whole.n_global_nodes);
-    EXPECT_EQ(part.n_global_elements, whole.n_global_elements);
-    EXPECT_EQ(part.notes, comm.getRank() == 0 ? whole.notes : std::vector<std::string>());
+    expect_part_of(comm, whole, build_parts<dim>(comm, slice_of(file, comm, cuts), scale));
   }
 }
 
@@ -142,6 +148,12 @@ void expect_the_same_error(const base::Comm& comm, const MeshFile& file, const s
 
 class Parts : public testing::Test {
  protected:
+  /// The name of a file that rank 0 writes.
+  std::string written_by_0(const std::function<std::string()>& write) const {
+    return read_by_all(
+        *comm, [](const std::string& file) { return file; }, write);
+  }
+
   const Teuchos::RCP<const base::Comm> comm = Tpetra::getDefaultComm();
 };
 
@@ -283,7 +295,7 @@ TEST_F(Parts, GroupsThatDoNotFitAreLeftOut) {
   const int others = file.add_group_list({70}), same = file.add_group_list({71, 72});
   file.group_names[{1, 70}] = "corner";
   file.add_element(9001, Shape::line, others, {file.node_tags[0], file.node_tags[4]});
-  // Of one name and with the same nodes, a side and a point that is one of its nodes.
+  // Two of one name with the same nodes, which is a side: this fits.
   file.group_names[{1, 71}] = file.group_names[{1, 72}] = "twice";
   file.add_element(9002, Shape::line, same, {file.node_tags[0], file.node_tags[3]});
   // Without a node of the mesh.
@@ -307,6 +319,37 @@ TEST_F(Parts, PlaneElementsAreOnlySidesInThreeDimensions) {
   file.n_plane_bodies = 6;
   file.notes = {"a note of the reader"};
   expect_the_same_in_parts<3>(*comm, file);
+}
+
+// ---- files that are read in slices ----
+
+TEST_F(Parts, FilesOfAllFormatsAreReadInParts) {
+  const std::string geo = written_by_0([] { return written("plate.geo", unstructured_plate); });
+  const std::string folder = std::filesystem::path(geo).parent_path();
+  const std::string msh = written_by_0([] { return meshed(structured_plate, 2, "-format msh22 -bin", "plate_22"); });
+  const std::string exodus = written_by_0([&] {
+    write_exodus(read_mesh<2>(msh), test_file("plate.e"));
+    return test_file("plate.e");
+  });
+  const std::string cdb = written_by_0([&] { return written("plate.cdb", ansys_archive(read_mesh<2>(msh))); });
+  for (const std::string& file : {msh, exodus, cdb}) {
+    SCOPED_TRACE(file);
+    expect_part_of(*comm, read_mesh<2>(file, 10.), mesh_and_read_parts<2>(*comm, file, folder, 10.));
+  }
+  const Mesh<2> part = mesh_and_read_parts<2>(*comm, geo, folder);
+  expect_part_of(*comm, read_mesh<2>(folder + "/plate.msh"), part);
+}
+
+TEST_F(Parts, MistakesInFilesAreToldByAllRanks) {
+  const std::string unknown = written_by_0([] { return written("mesh.txt", "no mesh"); });
+  const std::string geo = written_by_0([] { return written("solid.geo", structured_plate); });
+  const std::string folder = std::filesystem::path(geo).parent_path();
+  EXPECT_THAT(error_of([&] { mesh_and_read_parts<2>(*comm, unknown, folder); }),
+              HasSubstr("neither its content nor its ending"));
+  EXPECT_THAT(error_of([&] { mesh_and_read_parts<2>(*comm, folder + "/missing.msh", folder); }),
+              HasSubstr("cannot be read"));
+  EXPECT_THAT(error_of([&] { mesh_and_read_parts<3>(*comm, geo, folder); }),
+              AllOf(HasSubstr(geo + ": the mesh has no elements of dimension 3"), HasSubstr("Physical Volume (3D)")));
 }
 
 // ---- errors ----
