@@ -186,8 +186,8 @@ std::size_t FileCursor::checked(std::int64_t count, std::size_t numbers, std::si
 
 std::string FileCursor::place() const {
   if (binary_) return fmt::format("{}: byte {}", file_, position_);
-  const auto last_read = text_.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(position_, 1) - 1);
-  return fmt::format("{}:{}", file_, 1 + std::count(text_.begin(), last_read, '\n'));
+  const std::string_view passed = text_.substr(0, std::max<std::size_t>(position_, 1) - 1);
+  return fmt::format("{}:{}", file_, 1 + std::count(passed.begin(), passed.end(), '\n'));
 }
 
 void FileCursor::fail(const std::string& what) const { throw base::UserError(fmt::format("{}: {}", place(), what)); }

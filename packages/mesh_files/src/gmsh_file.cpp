@@ -11,23 +11,15 @@
 
 #include "file_cursor.hpp"
 #include "gmsh_elements.hpp"
+#include "gmsh_groups.hpp"
 #include "perimorph/base/errors.hpp"
 
 namespace perimorph::mesh_files {
 
 namespace {
 
-constexpr int no_groups = 0;       // index into MeshFile::group_lists
-constexpr int any_dimension = -1;  // of a name in 2.0
-
 const char* const advice =
     "mesh it with gmsh -2 (or -3), and put what is to be computed into a physical surface (or volume)";
-
-/// A negative number stands for the group with reversed orientation.
-int group_number(int signed_number) { return static_cast<int>(std::abs(static_cast<long>(signed_number))); }
-
-/// A point, curve, surface or volume: its dimension and number.
-using Entity = std::pair<int, int>;
 
 /// Nodes, and elements by dimension: which are wanted.
 struct Parts {
@@ -61,9 +53,7 @@ class Reader {
         cursor_.fail(fmt::format("the file ends without {}: it is truncated or holds no mesh", needed));
       }
     }
-    check_all_partitions_are_there();
-    put_elements_in_groups();
-    name_the_unnamed();
+    groups_.finish();
     return std::move(result_);
   }
 
@@ -98,6 +88,7 @@ class Reader {
     const double version = cursor_.ascii_real();
     const std::int64_t type = cursor_.ascii_long(), size = cursor_.ascii_long();
     version_ = static_cast<int>(std::lround(10. * version));
+    groups_.set_version(version_);
     if (!(version >= 2. && version < 3.) && version != 3. && version != 4. && version != 4.1) {
       cursor_.fail(
           fmt::format("MSH version {}; allowed are 2.0 to 4.1 (convert it: gmsh -save -format msh41 -o new.msh "
@@ -132,11 +123,11 @@ class Reader {
     sections_.insert(name);
     const std::string end = "$End" + name.substr(1);
     if (name == "$PhysicalNames") {
-      read_names();
+      groups_.read_names();
     } else if (name == "$Entities" && version_ >= 30) {
-      version_ == 30 ? read_entities_3() : read_entities_4();
+      groups_.read_entities();
     } else if (name == "$PartitionedEntities" && version_ >= 40) {
-      read_partitioned_entities();
+      groups_.read_partitioned_entities();
     } else if (name == "$Nodes") {
       version_ >= 40 ? read_nodes_4() : read_nodes_before_4();
     } else if (name == "$Elements") {
@@ -147,124 +138,8 @@ class Reader {
     cursor_.expect(end);
   }
 
-  /// Text in all flavours: count, then lines: dimension (not in 2.0), number, name, which some programs write without
-  /// quotes.
-  void read_names() {
-    for (std::int64_t n = cursor_.ascii_long(); n > 0; --n) {
-      const int dimension = version_ == 20 ? any_dimension : cursor_.ascii_int(), number = cursor_.ascii_int();
-      std::string name = cursor_.line();
-      if (const std::size_t begin = name.find('"'); begin != std::string::npos) {
-        const std::size_t end = name.find('"', begin + 1);
-        if (end == std::string::npos) {
-          cursor_.fail(
-              fmt::format("the name of physical group {} has one quote only, found \"{}\"", number, excerpt(name)));
-        }
-        name = name.substr(begin + 1, end - begin - 1);
-      }
-      names_[{dimension, number}] = name;
-    }
-  }
-
-  // ---- 3.0 and 4.x: points, curves, surfaces and volumes (entities) have groups; elements name their entity ----
-
-  std::vector<int> read_groups() {
-    std::vector<int> groups(cursor_.checked(cursor_.next_long(), 1, 4));
-    for (auto& group : groups) group = group_number(cursor_.next_int());
-    return groups;
-  }
-
   /// Numbers of nodes and elements have 8 bytes in 4.1, before it 4.
   std::int64_t next_tag() { return version_ == 41 ? cursor_.next_long() : cursor_.next_int(); }
-
-  void skip_list() {
-    for (std::size_t n = cursor_.checked(cursor_.next_long(), 1, 4); n > 0; --n) cursor_.next_int();
-  }
-
-  void read_entities_4() {
-    read_all_entities([this](int dimension) {
-      const int number = cursor_.next_int();
-      skip_box(dimension);
-      const auto groups = read_groups();
-      if (dimension > 0) skip_list();  // its boundary
-      groups_of_[{dimension, number}] = result_.add_group_list(groups);
-    });
-  }
-
-  /// In 3.0 all is text, the boundary comes first, and there is no box.
-  void read_entities_3() {
-    std::array<std::size_t, 4> counts;
-    for (auto& count : counts) count = static_cast<std::size_t>(std::max(0, cursor_.ascii_int()));
-    for (int dimension = 0; dimension < 4; ++dimension) {
-      for (std::size_t i = 0; i < counts[dimension]; ++i) {
-        const int number = cursor_.ascii_int();
-        if (dimension > 0) read_text_list();
-        groups_of_[{dimension, number}] = result_.add_group_list(read_text_list());
-      }
-    }
-  }
-
-  std::vector<int> read_text_list() {
-    std::vector<int> groups;
-    for (int n = cursor_.ascii_int(); n > 0; --n) groups.push_back(group_number(cursor_.ascii_int()));
-    return groups;
-  }
-
-  /// An entity of a partition has the groups of the one that it is a part of. Those between partitions, which are of
-  /// lower dimension than that, have none.
-  void read_partitioned_entities() {
-    n_partitions_ = cursor_.next_long();
-    for (std::size_t n = cursor_.checked(cursor_.next_long(), 2, 8); n > 0; --n) {  // ghosts: entity, partition
-      cursor_.next_int();
-      cursor_.next_int();
-    }
-    read_all_entities([this](int dimension) {
-      const int number = cursor_.next_int(), parent_dimension = cursor_.next_int(), parent = cursor_.next_int();
-      std::vector<int> partitions(cursor_.checked(cursor_.next_long(), 1, 4));
-      for (int& partition : partitions) partition = cursor_.next_int();
-      if (partitions.size() == 1) partitions_.insert(partitions[0]);  // others are of what lies between partitions
-      skip_box(dimension);
-      read_groups();
-      if (dimension > 0) skip_list();
-      parents_[{dimension, number}] = {parent_dimension, parent};
-    });
-  }
-
-  template <class ReadEntity>
-  void read_all_entities(ReadEntity read_entity) {
-    std::array<std::size_t, 4> counts;
-    for (auto& count : counts) count = cursor_.checked(cursor_.next_long(), 2, 8);
-    for (int dimension = 0; dimension < 4; ++dimension) {
-      for (std::size_t i = 0; i < counts[dimension]; ++i) read_entity(dimension);
-    }
-  }
-
-  void skip_box(int dimension) {
-    const int n = dimension == 0 && version_ == 41 ? 3 : 6;
-    for (int i = 0; i < n; ++i) cursor_.next_real();
-  }
-
-  void check_all_partitions_are_there() {
-    if (n_partitions_ <= static_cast<std::int64_t>(partitions_.size())) return;
-    cursor_.fail(fmt::format("the file holds partition {} of {} only: save the mesh as one file (without -part_split)",
-                             fmt::join(partitions_, ", "), n_partitions_));
-  }
-
-  /// The place in group_lists for elements of an entity, filled when all of the file is read.
-  int list_of_entity(const Entity& entity) {
-    const auto [found, is_new] = list_of_entity_.emplace(entity, no_groups);
-    if (is_new) found->second = result_.add_group_list({});
-    return found->second;
-  }
-
-  void put_elements_in_groups() {
-    for (const auto& [entity, list] : list_of_entity_) {
-      const auto part = parents_.find(entity);
-      const Entity whole = part == parents_.end() ? entity : part->second;
-      const auto groups = groups_of_.find(whole);
-      if (groups == groups_of_.end() || whole.first != entity.first) continue;
-      result_.group_lists[list] = result_.group_lists[groups->second];
-    }
-  }
 
   // ---- 4.x: nodes and elements come by entity ----
 
@@ -285,9 +160,9 @@ class Reader {
   }
 
   /// 4.0 has the number first, 4.1 the dimension.
-  Entity next_entity() {
+  GmshGroups::Entity next_entity() {
     const int first = cursor_.next_int(), second = cursor_.next_int();
-    return version_ == 41 ? Entity{first, second} : Entity{second, first};
+    return version_ == 41 ? GmshGroups::Entity{first, second} : GmshGroups::Entity{second, first};
   }
 
   void read_node_block() {
@@ -335,15 +210,15 @@ class Reader {
   }
 
   void read_element_block() {
-    const Entity entity = next_entity();
+    const GmshGroups::Entity entity = next_entity();
     const int number_of_kind = cursor_.next_int();
-    const int groups = list_of_entity(entity);
+    const int groups = groups_.list_of_entity(entity);
     const auto n = static_cast<std::int64_t>(cursor_.checked(cursor_.next_long(), 2, 8));
     if (n == 0) return;
     const GmshKind& kind =
         find_kind(number_of_kind) == nullptr ? kind_of(next_tag(), number_of_kind) : *find_kind(number_of_kind);
     const int dimension_of_kind = dimension(kind.shape);
-    lists_in_use_.insert({dimension_of_kind, groups});
+    groups_.use(dimension_of_kind, groups);
     const Range wanted = Range{0, n}.overlap(wanted_.elements[dimension_of_kind].from(n_elements_[dimension_of_kind]));
     n_elements_[dimension_of_kind] += n;
     skip_tags(wanted.begin * (1 + kind.n_nodes));
@@ -400,7 +275,7 @@ class Reader {
     const int tag = cursor_.next_int(), number_of_kind = cursor_.next_int(), entity = cursor_.next_int();
     const int n_numbers = cursor_.next_int();
     const GmshKind& kind = kind_of(tag, number_of_kind);
-    read_or_skip_corners(tag, kind, list_of_entity({dimension(kind.shape), entity}));
+    read_or_skip_corners(tag, kind, groups_.list_of_entity({dimension(kind.shape), entity}));
     for (int n = n_numbers - kind.n_nodes; n > 0; --n) cursor_.next_int();
   }
 
@@ -427,22 +302,16 @@ class Reader {
     int group = 0;  // the first tag; 0 is none
     for (int t = 0; t < n_tags; ++t) {
       const int tag = cursor_.next_int();
-      if (t == 0) group = group_number(tag);
+      if (t == 0) group = tag;
     }
-    read_or_skip_corners(number, kind_of(number, number_of_kind), list_of_group(group));
+    read_or_skip_corners(number, kind_of(number, number_of_kind), groups_.list_of_group(group));
   }
 
   void read_or_skip_corners(std::int64_t tag, const GmshKind& kind, int groups) {
     const int dimension_of_kind = dimension(kind.shape);
-    lists_in_use_.insert({dimension_of_kind, groups});
+    groups_.use(dimension_of_kind, groups);
     const bool is_wanted = wanted_.elements[dimension_of_kind].has(n_elements_[dimension_of_kind]++);
     is_wanted ? read_corners(tag, kind, groups) : skip_tags(kind.n_nodes);
-  }
-
-  int list_of_group(int group) {
-    if (group == 0) return no_groups;
-    const auto found = list_of_group_.find(group);
-    return found != list_of_group_.end() ? found->second : list_of_group_[group] = result_.add_group_list({group});
   }
 
   // ---- common to all ----
@@ -502,25 +371,6 @@ class Reader {
     ++result_.n_second_order[dimension(kind.shape)];
   }
 
-  void name_the_unnamed() {
-    static constexpr std::array<const char*, 4> entities = {"point", "curve", "surface", "volume"};
-    for (const auto& [dimension, list] : lists_in_use_) {
-      for (const int group : result_.group_lists[list]) {
-        std::string& name = result_.group_names[{dimension, group}];
-        if (name.empty()) name = name_of({dimension, group});
-        if (name.empty()) name = fmt::format("{}_{}", entities[dimension], group);
-      }
-    }
-  }
-
-  /// As given in the file, or "".
-  std::string name_of(const GroupKey& group) const {
-    for (const int dimension : {group.first, any_dimension}) {
-      if (const auto found = names_.find({dimension, group.second}); found != names_.end()) return found->second;
-    }
-    return "";
-  }
-
   static Range announced_range(std::size_t n) { return {0, static_cast<std::int64_t>(n)}; }
 
   void check_total(const char* what, std::size_t announced, std::int64_t found) {
@@ -532,17 +382,10 @@ class Reader {
   Parts wanted_;
   std::int64_t n_nodes_ = 0;  // read or passed over so far
   std::array<std::int64_t, 4> n_elements_{};
-  std::set<std::pair<int, int>> lists_in_use_;  // dimension and place in group_lists of all elements
   MeshFile result_;
+  GmshGroups groups_{cursor_, result_};
   int version_ = 0;  // 22 for 2.2
   std::set<std::string> sections_;
-  std::map<GroupKey, std::string> names_;
-  std::map<Entity, int> groups_of_;       // place in group_lists of an entity's groups
-  std::map<Entity, int> list_of_entity_;  // place in group_lists that an entity's elements have
-  std::map<Entity, Entity> parents_;      // of a partition's entity: what it is a part of
-  std::int64_t n_partitions_ = 0;
-  std::set<int> partitions_;
-  std::map<int, int> list_of_group_;  // 2.x
 };
 
 Counts counts_of(const std::string& file) {
