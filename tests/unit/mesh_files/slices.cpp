@@ -94,7 +94,7 @@ MeshFile expect_slices_to_be_the_whole(const std::string& file, const std::set<i
 // ---- gmsh ----
 
 std::string meshed_on_rank_0(const std::string& geo, int dimension, const std::string& name) {
-  const std::string file = shared_file(name + ".msh");
+  std::string file = shared_file(name + ".msh");
   write_on_rank_0([&] {
     const std::string geometry = written(fmt::format("{}_{}.geo", name, ranks().getSize()), geo);
     mesh_geometry(geometry, file, dimension);
@@ -125,14 +125,14 @@ constexpr std::array<int, 2> modes = {EX_CLOBBER | EX_LARGE_MODEL, EX_CLOBBER | 
 
 template <int dim>
 std::string exodus_on_rank_0(const mesh::Mesh<dim>& mesh, const ExodusOptions& options = {}) {
-  const std::string file = shared_file("mesh.e");
+  std::string file = shared_file("mesh.e");
   write_on_rank_0([&] { write_exodus(mesh, file, options); });
   return file;
 }
 
 std::string parts_on_rank_0(const Points& points, const std::vector<Block>& blocks, const std::vector<Sides>& sets,
                             const std::vector<std::int64_t>& node_set = {}) {
-  const std::string file = shared_file("parts.e");
+  std::string file = shared_file("parts.e");
   write_on_rank_0([&] { write_exodus_parts(file, points, blocks, sets, node_set); });
   return file;
 }
@@ -269,6 +269,16 @@ TEST(Slices, AMshFileTruncatedAnywhereIsTheSameError) {
     SCOPED_TRACE(size);
     EXPECT_THAT(expect_the_same_error_of("truncated.msh", text.substr(0, size)), HasSubstr("truncated"));
   }
+}
+
+TEST(Slices, AMistakeInAMshTextIsTheSameError) {
+  const std::string half = replaced(two_squares_2_2, "3 2 0 0\n", "3 2 0\n"), old = two_squares_2_2;
+  EXPECT_THAT(expect_the_same_error_of("half.msh", half), HasSubstr(":17: a number expected, found \"$EndNodes\""));
+  EXPECT_THAT(expect_the_same_error_of("kind.msh", replaced(old, "12 3 2", "12 93 2")), HasSubstr("gmsh's kind 93"));
+  EXPECT_THAT(expect_the_same_error_of("letter.msh", replaced(two_squares_4_1, "2 1 0\n$End", "2 1 x\n$End")),
+              HasSubstr("a number expected, found \"x\""));
+  EXPECT_THAT(expect_the_same_error_of("nan.msh", replaced(two_squares_4_1, "2 1 0\n$End", "2 1 nan\n$End")),
+              HasSubstr("a coordinate is nan"));
 }
 
 /// Any four bytes; what comes of it may be a mesh.
