@@ -97,7 +97,8 @@ std::map<base::GlobalId, double> damage_of(const base::Comm& comm, const fractur
     own.push_back(one);
   }
   std::map<base::GlobalId, double> all;
-  for (const auto& [element, damage] : base::gather_on_all(comm, own)) all[element] = damage;
+  const auto gathered = base::gather_on_all(comm, own);
+  for (const auto& [element, damage] : gathered) all[element] = damage;
   return all;
 }
 
