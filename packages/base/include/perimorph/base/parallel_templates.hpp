@@ -57,15 +57,17 @@ std::vector<T> gather_on_root(const Comm& comm, const std::vector<T>& values) {
 template <class T>
 std::vector<T> gather_on_all(const Comm& comm, const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
-  if (comm.getSize() == 1) return values;
-  const MPI_Comm mpi = mpi_communicator(comm);
-  const int count = static_cast<int>(values.size());
-  std::vector<int> counts(comm.getSize());
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, mpi);
-  const std::vector<int> first = detail::offsets(counts);
-  std::vector<T> all(first.back());
-  const detail::ItemType item(sizeof(T));
-  MPI_Allgatherv(values.data(), count, item, all.data(), counts.data(), first.data(), item, mpi);
+  std::vector<T> all = values;
+  if (comm.getSize() > 1) {
+    const MPI_Comm mpi = mpi_communicator(comm);
+    const int count = static_cast<int>(values.size());
+    std::vector<int> counts(comm.getSize());
+    MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, mpi);
+    const std::vector<int> first = detail::offsets(counts);
+    all.resize(first.back());
+    const detail::ItemType item(sizeof(T));
+    MPI_Allgatherv(values.data(), count, item, all.data(), counts.data(), first.data(), item, mpi);
+  }
   return all;
 }
 
