@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "inquiry.hpp"
 #include "over_ranks.hpp"
+#include "perimorph/base/inquiry.hpp"
 #include "perimorph/base/text.hpp"
 
 namespace perimorph::mesh_files {
@@ -61,7 +61,7 @@ std::vector<int> FileNodes<dim>::holders_of(const std::vector<GlobalId>& places)
 
 template <int dim>
 std::vector<UsedNode<dim>> FileNodes<dim>::use(const std::vector<GlobalId>& places) {
-  const Inquiry<GlobalId> inquiry(comm_, holders_of(places), places);
+  const base::Inquiry<GlobalId> inquiry(comm_, holders_of(places), places);
   for (const auto& some : inquiry.received()) {
     for (const GlobalId place : some) ids_[index_of(place)] = unnumbered;
   }
@@ -124,7 +124,7 @@ void FileNodes<dim>::check_size() const {
 
 template <int dim>
 std::vector<GlobalId> FileNodes<dim>::ids_of(const std::vector<GlobalId>& places) const {
-  const Inquiry<GlobalId> inquiry(comm_, holders_of(places), places);
+  const base::Inquiry<GlobalId> inquiry(comm_, holders_of(places), places);
   return inquiry.answers<GlobalId>([&](GlobalId place) { return ids_[index_of(place)]; });
 }
 
@@ -138,7 +138,7 @@ std::vector<char> FileNodes<dim>::are_between_corners() const {
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
   std::vector<GlobalId> places = places_of(tags);
   places.erase(std::remove(places.begin(), places.end(), none), places.end());
-  const Inquiry<GlobalId> telling(comm_, holders_of(places), places);
+  const base::Inquiry<GlobalId> telling(comm_, holders_of(places), places);
   for (const auto& some : telling.received()) {
     for (const GlobalId place : some) are_between[index_of(place)] = 1;
   }

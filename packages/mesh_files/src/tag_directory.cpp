@@ -1,6 +1,6 @@
 #include "tag_directory.hpp"
 
-#include "inquiry.hpp"
+#include "perimorph/base/inquiry.hpp"
 
 namespace perimorph::mesh_files {
 
@@ -22,7 +22,7 @@ TagDirectory::TagDirectory(const base::Comm& comm, const std::vector<std::int64_
   std::vector<Entry> entries;
   entries.reserve(tags.size());
   for (std::size_t i = 0; i < tags.size(); ++i) entries.push_back({tags[i], places[i]});
-  const Inquiry<Entry> arriving(comm, homes_of(tags), entries);
+  const base::Inquiry<Entry> arriving(comm, homes_of(tags), entries);
   std::size_t n = 0;
   for (const auto& some : arriving.received()) n += some.size();
   places_.reserve(n);
@@ -44,7 +44,7 @@ std::vector<int> TagDirectory::homes_of(const std::vector<std::int64_t>& tags) c
 }
 
 std::vector<GlobalId> TagDirectory::places_of(const std::vector<std::int64_t>& tags) const {
-  const Inquiry<std::int64_t> inquiry(comm_, homes_of(tags), tags);
+  const base::Inquiry<std::int64_t> inquiry(comm_, homes_of(tags), tags);
   return inquiry.answers<GlobalId>([&](std::int64_t tag) {
     const auto found = places_.find(tag);
     return found == places_.end() ? none : found->second;

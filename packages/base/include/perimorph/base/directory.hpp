@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "perimorph/base/errors.hpp"
+#include "perimorph/base/inquiry.hpp"
 #include "perimorph/base/parallel.hpp"
 
 namespace perimorph::base {
@@ -17,16 +18,7 @@ class Directory {
   /// @param items of which this rank has copies, each once, in any order
   /// @throws Bug on all ranks if an item is none of them
   Directory(const Comm& comm, GlobalId n, const std::vector<GlobalId>& items)
-      : comm_(comm), n_(n), holders_(items.size()) {
-    std::vector<std::vector<GlobalId>> outgoing(comm.getSize());
-    on_all_ranks(comm, [&] {
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        PERIMORPH_ASSERT(items[i] >= 0 && items[i] < n_, "item {} of {}", items[i], n_);
-        holders_[i] = holder(items[i]);
-        outgoing[holders_[i]].push_back(items[i]);
-      }
-    });
-    known_ = base::exchange(comm, outgoing);
+      : comm_(comm), n_(n), asked_(comm, holders_of(items), items), known_(asked_.received()) {
     for (auto& some : known_) {
       for (GlobalId& item : some) item -= begin(comm.getRank());
     }
@@ -35,7 +27,7 @@ class Directory {
   /// The first item of a rank's slice; of n_ranks: n.
   GlobalId begin(int rank) const { return n_ * rank / comm_.getSize(); }
   /// How many items this rank has copies of.
-  std::size_t n_own() const { return holders_.size(); }
+  std::size_t n_own() const { return asked_.ranks().size(); }
   /// How many items are in this rank's slice.
   std::size_t n_here() const { return static_cast<std::size_t>(begin(comm_.getRank() + 1) - begin(comm_.getRank())); }
   /// The rank in whose slice an item is.
@@ -49,10 +41,7 @@ class Directory {
   /// @return (n_ranks), what was said of the items in known()
   template <class T>
   std::vector<std::vector<T>> tell(const std::vector<T>& values) const {
-    PERIMORPH_ASSERT(values.size() == holders_.size(), "{} values of {} items", values.size(), holders_.size());
-    std::vector<std::vector<T>> outgoing(comm_.getSize());
-    for (std::size_t i = 0; i < values.size(); ++i) outgoing[holders_[i]].push_back(values[i]);
-    return base::exchange(comm_, outgoing);
+    return Inquiry<T>(comm_, asked_.ranks(), values).received();
   }
 
   /// The holders answer. Collective.
@@ -60,12 +49,7 @@ class Directory {
   /// @return one for each of this rank's items, in their order
   template <class T>
   std::vector<T> answer(const std::vector<std::vector<T>>& answers) const {
-    const auto incoming = base::exchange(comm_, answers);
-    std::vector<std::size_t> next(incoming.size(), 0);
-    std::vector<T> values;
-    values.reserve(holders_.size());
-    for (const int rank : holders_) values.push_back(incoming[rank][next[rank]++]);
-    return values;
+    return asked_.send_back(answers);
   }
 
   /// The same, with one value for each item of this rank's slice. Collective.
@@ -82,8 +66,20 @@ class Directory {
  private:
   const Comm& comm_;
   GlobalId n_;
-  std::vector<int> holders_;  ///< of this rank's items
+  Inquiry<GlobalId> asked_;  ///< who has copies of this rank's items
   std::vector<std::vector<GlobalId>> known_;
+
+  /// Collective.
+  std::vector<int> holders_of(const std::vector<GlobalId>& items) const {
+    std::vector<int> holders;
+    on_all_ranks(comm_, [&] {
+      for (const GlobalId item : items) {
+        PERIMORPH_ASSERT(item >= 0 && item < n_, "item {} of {}", item, n_);
+        holders.push_back(holder(item));
+      }
+    });
+    return holders;
+  }
 };
 
 }  // namespace perimorph::base

@@ -5,17 +5,17 @@
 #include "perimorph/base/errors.hpp"
 #include "perimorph/base/parallel.hpp"
 
-namespace perimorph::mesh_files {
+namespace perimorph::base {
 
 /// Questions to other ranks about what each of them has, and their answers.
 /// @tparam Question trivially copyable
 template <class Question>
 class Inquiry {
  public:
-  /// Sends the questions. Collective.
+  /// Sends the questions. Collective; the communicator must outlive this.
   /// @param ranks     whom each question is for, (n_questions)
   /// @param questions (n_questions)
-  Inquiry(const base::Comm& comm, std::vector<int> ranks, const std::vector<Question>& questions)
+  Inquiry(const Comm& comm, std::vector<int> ranks, const std::vector<Question>& questions)
       : comm_(comm), ranks_(std::move(ranks)) {
     PERIMORPH_ASSERT(ranks_.size() == questions.size(), "{} questions to {} ranks", questions.size(), ranks_.size());
     std::vector<std::vector<Question>> outgoing(comm.getSize());
@@ -23,20 +23,17 @@ class Inquiry {
     received_ = base::exchange(comm, outgoing);
   }
 
+  /// Whom each question was for, (n_questions).
+  const std::vector<int>& ranks() const { return ranks_; }
   /// What each rank has asked this one, (n_ranks).
   const std::vector<std::vector<Question>>& received() const { return received_; }
 
   /// Answers what the others have asked, and returns what they answer. Collective.
-  /// @param answer_to from Question to Answer, which is trivially copyable
+  /// @param to_others (n_ranks), for each rank the answers to what it has asked; Answer is trivially copyable
   /// @return in the order of the questions, (n_questions)
-  template <class Answer, class AnswerTo>
-  std::vector<Answer> answers(const AnswerTo& answer_to) const {
-    std::vector<std::vector<Answer>> outgoing(received_.size());
-    for (std::size_t rank = 0; rank < received_.size(); ++rank) {
-      outgoing[rank].reserve(received_[rank].size());
-      for (const Question& question : received_[rank]) outgoing[rank].push_back(answer_to(question));
-    }
-    const auto incoming = base::exchange(comm_, outgoing);
+  template <class Answer>
+  std::vector<Answer> send_back(const std::vector<std::vector<Answer>>& to_others) const {
+    const auto incoming = base::exchange(comm_, to_others);
     std::vector<std::size_t> next(incoming.size(), 0);
     std::vector<Answer> all;
     all.reserve(ranks_.size());
@@ -44,10 +41,22 @@ class Inquiry {
     return all;
   }
 
+  /// The same. Collective.
+  /// @param answer_to from Question to Answer
+  template <class Answer, class AnswerTo>
+  std::vector<Answer> answers(const AnswerTo& answer_to) const {
+    std::vector<std::vector<Answer>> to_others(received_.size());
+    for (std::size_t rank = 0; rank < received_.size(); ++rank) {
+      to_others[rank].reserve(received_[rank].size());
+      for (const Question& question : received_[rank]) to_others[rank].push_back(answer_to(question));
+    }
+    return send_back(to_others);
+  }
+
  private:
-  const base::Comm& comm_;
+  const Comm& comm_;
   std::vector<int> ranks_;
   std::vector<std::vector<Question>> received_;
 };
 
-}  // namespace perimorph::mesh_files
+}  // namespace perimorph::base
