@@ -60,6 +60,67 @@ std::vector<std::vector<int>> connected(const Mesh<dim>& mesh, const std::vector
   return lists;
 }
 
+/// The elements around the part's own nodes, all of which it has, and for each of these the lowest of those that it
+/// hangs together with there, by nodes that are no hinges.
+template <int dim>
+std::map<int, int> sets_around_own_nodes(const Mesh<dim>& part, const std::vector<Hinge>& own_hinges) {
+  std::vector<int> first_at(part.n_owned_nodes, -1);
+  std::vector<char> is_hinge(part.n_owned_nodes, 0);
+  base::DisjointSets joined(part.n_elements());
+  for (const auto& hinge : own_hinges) {
+    is_hinge[hinge.node] = 1;
+    for (const auto& group : hinge.groups) {
+      for (const int e : group) joined.join(group.front(), e);
+    }
+  }
+  std::map<int, int> sets;
+  for (int e = 0; e < part.n_elements(); ++e) {
+    for (int c = 0; c < part.n_corners(e); ++c) {
+      const int node = part.corners_of(e)[c];
+      if (node >= part.n_owned_nodes) continue;
+      sets[e];
+      if (is_hinge[node] != 0) continue;
+      if (first_at[node] < 0) first_at[node] = e;
+      joined.join(first_at[node], e);
+    }
+  }
+  for (auto& [element, lowest] : sets) lowest = joined.lowest(element);
+  return sets;
+}
+
+/// How many sets those of all ranks are, if sets that have an element in common are one. Collective.
+template <int dim>
+GlobalId count_sets(const base::Comm& comm, const Mesh<dim>& part, const std::map<int, int>& sets) {
+  std::map<int, GlobalId> number_of;  // of a set, by its lowest element, among those of all ranks
+  for (const auto& entry : sets) number_of[entry.second];
+  const auto counts = base::gather_on_all<GlobalId>(comm, {static_cast<GlobalId>(number_of.size())});
+  GlobalId next = std::accumulate(counts.begin(), counts.begin() + comm.getRank(), GlobalId{0});
+  for (auto& [lowest, number] : number_of) number = next++;
+  std::vector<GlobalId> elements, numbers;
+  for (const auto& [element, lowest] : sets) {
+    elements.push_back(part.element_ids[element]);
+    numbers.push_back(number_of.at(lowest));
+  }
+  const base::Directory directory(comm, base::max(comm, part.n_global_elements), elements);
+  const auto told = directory.tell(numbers);
+  std::vector<GlobalId> first(directory.n_here(), -1);
+  std::set<std::array<GlobalId, 2>> same;  // numbers of one element
+  for (std::size_t rank = 0; rank < told.size(); ++rank) {
+    for (std::size_t i = 0; i < told[rank].size(); ++i) {
+      GlobalId& one = first[directory.known()[rank][i]];
+      if (one < 0) one = told[rank][i];
+      if (one != told[rank][i]) same.insert({one, told[rank][i]});
+    }
+  }
+  const auto n_sets = static_cast<int>(std::accumulate(counts.begin(), counts.end(), GlobalId{0}));
+  base::DisjointSets all(n_sets);
+  const auto pairs = base::gather_on_all<std::array<GlobalId, 2>>(comm, {same.begin(), same.end()});
+  for (const auto& [one, other] : pairs) all.join(static_cast<int>(one), static_cast<int>(other));
+  GlobalId n_parts = 0;
+  for (int i = 0; i < n_sets; ++i) n_parts += all.lowest(i) == i ? 1 : 0;
+  return n_parts;
+}
+
 }  // namespace
 
 template <int dim>
@@ -97,71 +158,19 @@ std::vector<int> parts_of_elements(const Mesh<dim>& mesh, const std::vector<Hing
   return part;
 }
 
-/// Each rank joins the elements around its own nodes, all of which it has. What it has joined is called by a number of
-/// all ranks; those that different ranks call the same element by are one.
 template <int dim>
 Connections connections(const base::Comm& comm, const Mesh<dim>& part) {
   const Mesh<dim> nothing;
   const auto& mesh = part.rank == comm.getRank() ? part : nothing;
   std::vector<Hinge> own_hinges;
-  base::DisjointSets sets(mesh.n_elements());
-  std::vector<char> is_around(mesh.n_elements(), 0);  // a node of this rank
+  std::map<int, int> sets;
   base::on_all_ranks(comm, [&] {
     for (auto& hinge : hinges(mesh)) {
       if (hinge.node < mesh.n_owned_nodes) own_hinges.push_back(std::move(hinge));
     }
-    std::vector<int> first_at(mesh.n_owned_nodes, -1);
-    std::vector<char> is_hinge(mesh.n_owned_nodes, 0);
-    for (const auto& hinge : own_hinges) {
-      is_hinge[hinge.node] = 1;
-      for (const auto& group : hinge.groups) {
-        for (const int e : group) sets.join(group.front(), e);
-      }
-    }
-    for (int e = 0; e < mesh.n_elements(); ++e) {
-      for (int c = 0; c < mesh.n_corners(e); ++c) {
-        const int node = mesh.corners_of(e)[c];
-        if (node >= mesh.n_owned_nodes) continue;
-        is_around[e] = 1;
-        if (is_hinge[node] != 0) continue;
-        if (first_at[node] < 0) first_at[node] = e;
-        sets.join(first_at[node], e);
-      }
-    }
+    sets = sets_around_own_nodes(mesh, own_hinges);
   });
-  std::map<int, GlobalId> number_of;  // of a set, by its lowest element
-  for (int e = 0; e < mesh.n_elements(); ++e) {
-    if (is_around[e] != 0) number_of.emplace(sets.lowest(e), 0);
-  }
-  const auto counts = base::gather_on_all<GlobalId>(comm, {static_cast<GlobalId>(number_of.size())});
-  GlobalId next = std::accumulate(counts.begin(), counts.begin() + comm.getRank(), GlobalId{0});
-  for (auto& [lowest, number] : number_of) number = next++;
-
-  std::vector<GlobalId> elements, numbers;
-  for (int e = 0; e < mesh.n_elements(); ++e) {
-    if (is_around[e] == 0) continue;
-    elements.push_back(mesh.element_ids[e]);
-    numbers.push_back(number_of.at(sets.lowest(e)));
-  }
-  const base::Directory directory(comm, base::max(comm, mesh.n_global_elements), elements);
-  const auto told = directory.tell(numbers);
-  std::vector<GlobalId> first_said(directory.n_here(), -1);
-  std::set<std::array<GlobalId, 2>> same;
-  for (std::size_t rank = 0; rank < told.size(); ++rank) {
-    for (std::size_t i = 0; i < told[rank].size(); ++i) {
-      GlobalId& first = first_said[directory.known()[rank][i]];
-      if (first < 0) first = told[rank][i];
-      if (first != told[rank][i]) same.insert({first, told[rank][i]});
-    }
-  }
-  const auto n_sets = static_cast<int>(std::accumulate(counts.begin(), counts.end(), GlobalId{0}));
-  base::DisjointSets all(n_sets);
-  for (const auto& [one, other] : base::gather_on_all<std::array<GlobalId, 2>>(comm, {same.begin(), same.end()})) {
-    all.join(static_cast<int>(one), static_cast<int>(other));
-  }
-  GlobalId n_parts = 0;
-  for (int i = 0; i < n_sets; ++i) n_parts += all.lowest(i) == i ? 1 : 0;
-  return {n_parts, base::sum(comm, static_cast<GlobalId>(own_hinges.size()))};
+  return {count_sets(comm, mesh, sets), base::sum(comm, static_cast<GlobalId>(own_hinges.size()))};
 }
 
 template <int dim>
