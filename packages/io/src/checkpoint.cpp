@@ -109,7 +109,7 @@ std::vector<DataSet> share_rows(const base::Comm& comm, const std::vector<DataSe
 
 template <class Values>
 Piece piece(GlobalId offset, const Values& values) {
-  const auto size = static_cast<GlobalId>(values.size() * sizeof(values[0]));
+  const auto size = static_cast<GlobalId>(values.size()) * static_cast<GlobalId>(sizeof(values[0]));
   return {offset, size, reinterpret_cast<const char*>(values.data())};
 }
 

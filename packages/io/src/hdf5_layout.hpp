@@ -43,6 +43,6 @@ struct Structure {
 Structure lay_out(std::vector<DataSet> sets);
 
 /// The data sets of a file. Local. @throws Bug if it is not one of HDF5, or not such as lay_out() makes.
-std::vector<DataSet> data_sets_of(const std::string& file);
+std::vector<DataSet> data_sets_of(const std::string& name);
 
 }  // namespace perimorph::io
