@@ -46,7 +46,8 @@ def zone(model, n, dimension, horizon):
     if model == "FE only":
         return {}
     if model == "small zone":
-        return {"zone": {"Center": [0.5 * n] * dimension, "Inner Radius": 2.0 * horizon, "Outer Radius": 3.0 * horizon}}
+        return {"zone": {"Shape": {2: "Circle", 3: "Sphere"}[dimension], "Center": [0.5 * n] * dimension,
+                         "Inner Radius": 2.0 * horizon, "Outer Radius": 3.0 * horizon}}
     if model == "all peridynamic":
         return {"zone": {"Shape": "Everything"}}
     return {"zone": {"Shape": "Box", "Lower Corner": [-1, 0.45 * n, -1][:dimension],
