@@ -55,10 +55,10 @@ mesh::Mesh<dim> doubled(const mesh::Mesh<dim>& half, int axis, const std::string
     for (const int k : corners_of_image(half.types[e])) whole.corners.push_back(image[half.corners_of(e)[k]]);
     whole.first_corner.push_back(static_cast<int>(whole.corners.size()));
   }
-  const std::string letter(1, "xyz"[axis]);
+  const char letter = "xyz"[axis];
   for (const auto& [name, nodes] : half.node_sets) {
-    auto& images = whole.node_sets[letter + "-image of " + name];
-    auto& both = whole.node_sets[letter + "-both of " + name];
+    auto& images = whole.node_sets[fmt::format("{}-image of {}", letter, name)];
+    auto& both = whole.node_sets[fmt::format("{}-both of {}", letter, name)];
     for (const int n : nodes) images.push_back(image[n]);
     std::sort(images.begin(), images.end());
     std::set_union(nodes.begin(), nodes.end(), images.begin(), images.end(), std::back_inserter(both));

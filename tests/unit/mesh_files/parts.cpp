@@ -142,7 +142,8 @@ void expect_the_same_error(const base::Comm& comm, const MeshFile& file, const s
   EXPECT_THAT(expected, HasSubstr(part_of_it));
   for (const auto& [way, cuts] : ways_to_cut) {
     SCOPED_TRACE(way);
-    EXPECT_EQ(error_of([&] { build_parts<dim>(comm, slice_of(file, comm, cuts), scale); }), expected);
+    const MeshFile slice = slice_of(file, comm, cuts);
+    EXPECT_EQ(error_of([&] { build_parts<dim>(comm, slice, scale); }), expected);
   }
 }
 
@@ -185,22 +186,22 @@ Physical Curve("edges") = Curve{:}; Physical Point("corners") = Point{:};
 /// Two blocks with all their faces, edges and corners in groups, in an order that has nothing to do with
 /// places.
 TEST_F(Parts, ManyTetrahedraInAnyOrder) {
-  MeshFile file = gmsh_geometry(*comm, two_boxes, 3);
-  MeshFile shuffled = file;
+  const MeshFile ordered = gmsh_geometry(*comm, two_boxes, 3);
+  MeshFile shuffled = ordered;
   shuffled.element_tags.clear();
   shuffled.shapes.clear();
   shuffled.element_groups.clear();
   shuffled.first_node = {0};
   shuffled.element_nodes.clear();
-  const std::size_t n = file.n_elements(), n_nodes = file.node_tags.size();
+  const std::size_t n = ordered.n_elements(), n_nodes = ordered.node_tags.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t e = i * 7919 % n;
-    append_element(shuffled, file, e, file.element_groups[e]);
+    append_element(shuffled, ordered, e, ordered.element_groups[e]);
   }
   for (std::size_t i = 0; i < n_nodes; ++i) {
     const std::size_t place = i * 7919 % n_nodes;
-    shuffled.node_tags[i] = 1000003 * file.node_tags[place];
-    shuffled.coordinates[i] = file.coordinates[place];
+    shuffled.node_tags[i] = 1000003 * ordered.node_tags[place];
+    shuffled.coordinates[i] = ordered.coordinates[place];
   }
   for (auto& tag : shuffled.element_nodes) tag *= 1000003;
   ASSERT_TRUE(n % 7919 != 0 && n_nodes % 7919 != 0 && n > 500);
