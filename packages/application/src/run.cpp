@@ -69,10 +69,10 @@ void describe(const base::Comm& comm, const cases::Case& input, const Problem<di
   }
 }
 
-/// Of the whole mesh, on rank 0.
+/// Of names that rank 0 knows.
 template <int dim>
-void warn_of_names(const mesh::Mesh<dim>& whole, const cases::Case& input, const base::Log& log) {
-  for (const auto& entry : whole.side_sets) {
+void warn_of_names(const mesh::Mesh<dim>& mesh, const cases::Case& input, const base::Log& log) {
+  for (const auto& entry : mesh.side_sets) {
     const std::string name = output::name_in_results(entry.first);
     if (name == entry.first) continue;
     warn(log, input,
@@ -83,7 +83,7 @@ void warn_of_names(const mesh::Mesh<dim>& whole, const cases::Case& input, const
   }
 }
 
-/// The mesh of a body, refined where the case asks for it, whole on rank 0. Collective.
+/// The mesh of a body, refined where the case asks for it: then whole on rank 0. Collective.
 /// @param increments in the last of which automatic seeds are found, on the mesh as it is before that
 template <int dim>
 model::Refinement<dim> refine(const Teuchos::RCP<const base::Comm>& comm, mesh::Mesh<dim> root,
@@ -134,10 +134,10 @@ std::vector<std::string> place_and_calibrate(const Teuchos::RCP<const base::Comm
   return lines;
 }
 
-/// What reading the mesh changed. The whole mesh, and its notes, are on rank 0.
+/// What reading the mesh changed, which rank 0 knows.
 template <int dim>
-void log_notes(const mesh::Mesh<dim>& whole, const base::Log& log) {
-  for (const std::string& note : whole.notes) log->warn("note: {}", note);
+void log_notes(const mesh::Mesh<dim>& mesh, const base::Log& log) {
+  for (const std::string& note : mesh.notes) log->warn("note: {}", note);
 }
 
 /// One run of a case.

@@ -63,21 +63,14 @@ std::vector<GlobalId> real_node_ids(const Mesh<dim>& part) {
 template <int dim>
 std::vector<int> node_owners(const Directory& nodes, const Mesh<dim>& part, const std::vector<int>& element_owners) {
   constexpr int none = std::numeric_limits<int>::max();
-  std::vector<int> owners(nodes.n_own(), none), lowest(nodes.n_here(), none);
+  std::vector<int> owners(nodes.n_own(), none);
   for (int e = 0; e < part.n_owned_elements; ++e) {
     for (int c = 0; c < part.n_corners(e); ++c) {
       int& owner = owners[part.corners_of(e)[c]];
       owner = std::min(owner, element_owners[e]);
     }
   }
-  const auto told = nodes.tell(owners);
-  for (std::size_t rank = 0; rank < told.size(); ++rank) {
-    for (std::size_t i = 0; i < told[rank].size(); ++i) {
-      int& owner = lowest[nodes.known()[rank][i]];
-      owner = std::min(owner, told[rank][i]);
-    }
-  }
-  return nodes.answer_all(lowest);
+  return nodes.answers(nodes.collect(owners, none, [](int& lowest, int owner) { lowest = std::min(lowest, owner); }));
 }
 
 /// The part's nodes in sets, whichever rank knows it. Collective.
@@ -86,15 +79,11 @@ template <int dim>
 NodeSets complete_node_sets(const Directory& nodes, const Mesh<dim>& names, const Mesh<dim>& part) {
   NodeSets complete;
   for (const auto& [name, nobody] : names.node_sets) {
-    std::vector<char> are_in(nodes.n_own(), 0), slice(nodes.n_here(), 0);
+    std::vector<char> are_in(nodes.n_own(), 0);
     if (const auto known = part.node_sets.find(name); known != part.node_sets.end()) {
       for (const int node : known->second) are_in[node] = 1;
     }
-    const auto told = nodes.tell(are_in);
-    for (std::size_t rank = 0; rank < told.size(); ++rank) {
-      for (std::size_t i = 0; i < told[rank].size(); ++i) slice[nodes.known()[rank][i]] |= told[rank][i];
-    }
-    are_in = nodes.answer_all(slice);
+    are_in = nodes.answers(nodes.collect(are_in, char{0}, [](char& is_in, char said) { is_in |= said; }));
     auto& set = complete[name];
     for (std::size_t node = 0; node < are_in.size(); ++node) {
       if (are_in[node] != 0) set.push_back(static_cast<int>(node));
@@ -260,17 +249,17 @@ Mesh<dim> distribute(const base::Comm& comm, const Mesh<dim>& part, double halo_
 
 template <int dim>
 Mesh<dim> gather(const base::Comm& comm, const Mesh<dim>& part) {
-  const bool is_elsewhere = comm.getRank() != 0 && part.rank == comm.getRank() && part.n_owned_elements > 0;
-  if (base::max(comm, static_cast<GlobalId>(is_elsewhere)) == 0) return comm.getRank() == 0 ? part : Mesh<dim>();
-  const auto names = names_and_sizes(comm, part);
+  const Mesh<dim> nothing;
+  const auto& from = part.rank == comm.getRank() ? part : nothing;
+  const auto names = names_and_sizes(comm, from);
   std::vector<std::vector<int>> needed(comm.getSize());
-  needed[0].resize(part.n_owned_elements);
+  needed[0].resize(from.n_owned_elements);
   std::iota(needed[0].begin(), needed[0].end(), 0);
-  const Owners all_on_root{std::vector<int>(part.n_owned_elements, 0), std::vector<int>(part.n_nodes(), 0)};
-  auto whole = exchanged(comm, part, part.node_sets, all_on_root, needed);
+  const Owners all_on_root{std::vector<int>(from.n_owned_elements, 0), std::vector<int>(from.n_nodes(), 0)};
+  auto whole = exchanged(comm, from, from.node_sets, all_on_root, needed);
   if (comm.getRank() != 0) return {};
   add_names(whole, names);
-  whole.notes = part.notes;
+  whole.notes = from.notes;
   return whole;
 }
 

@@ -78,12 +78,7 @@ std::vector<int> partition(const base::Comm& comm, const std::vector<GlobalId>& 
     own[i] = {ids[i], {}, weights[i]};
     std::copy_n(points[i].data(), dim, own[i].x.begin());
   }
-  std::vector<WeightedPoint<dim>> slice(directory.n_here());
-  const auto told = directory.tell(own);
-  for (std::size_t rank = 0; rank < told.size(); ++rank) {
-    for (std::size_t i = 0; i < told[rank].size(); ++i) slice[directory.known()[rank][i]] = told[rank][i];
-  }
-  return directory.answer_all(multijagged_parts<dim>(comm, slice));
+  return directory.answers(multijagged_parts<dim>(comm, directory.collect(own)));
 }
 
 #define PERIMORPH_INSTANTIATE(dim)                                                     \

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "perimorph/base/directory.hpp"
@@ -93,8 +92,8 @@ template <int dim>
 GlobalId count_sets(const base::Comm& comm, const Mesh<dim>& part, const std::map<int, int>& sets) {
   std::map<int, GlobalId> number_of;  // of a set, by its lowest element, among those of all ranks
   for (const auto& entry : sets) number_of[entry.second];
-  const auto counts = base::gather_on_all<GlobalId>(comm, {static_cast<GlobalId>(number_of.size())});
-  GlobalId next = std::accumulate(counts.begin(), counts.begin() + comm.getRank(), GlobalId{0});
+  const auto slices = base::Slices::of(comm, number_of.size());
+  GlobalId next = slices.begin(comm.getRank());
   for (auto& [lowest, number] : number_of) number = next++;
   std::vector<GlobalId> elements, numbers;
   for (const auto& [element, lowest] : sets) {
@@ -102,17 +101,12 @@ GlobalId count_sets(const base::Comm& comm, const Mesh<dim>& part, const std::ma
     numbers.push_back(number_of.at(lowest));
   }
   const base::Directory directory(comm, base::max(comm, part.n_global_elements), elements);
-  const auto told = directory.tell(numbers);
-  std::vector<GlobalId> first(directory.n_here(), -1);
   std::set<std::array<GlobalId, 2>> same;  // numbers of one element
-  for (std::size_t rank = 0; rank < told.size(); ++rank) {
-    for (std::size_t i = 0; i < told[rank].size(); ++i) {
-      GlobalId& one = first[directory.known()[rank][i]];
-      if (one < 0) one = told[rank][i];
-      if (one != told[rank][i]) same.insert({one, told[rank][i]});
-    }
-  }
-  const auto n_sets = static_cast<int>(std::accumulate(counts.begin(), counts.end(), GlobalId{0}));
+  directory.collect(numbers, GlobalId{-1}, [&](GlobalId& first, GlobalId number) {
+    if (first < 0) first = number;
+    if (first != number) same.insert({first, number});
+  });
+  const auto n_sets = static_cast<int>(slices.n());
   base::DisjointSets all(n_sets);
   const auto pairs = base::gather_on_all<std::array<GlobalId, 2>>(comm, {same.begin(), same.end()});
   for (const auto& [one, other] : pairs) all.join(static_cast<int>(one), static_cast<int>(other));

@@ -32,7 +32,7 @@ FileNodes<dim>::FileNodes(const base::Comm& comm, const MeshFile& slice, double 
       slice_(slice),
       scale_(scale),
       remarks_(remarks),
-      first_places_(first_items(comm, slice.node_tags.size())),
+      places_(base::Slices::of(comm, slice.node_tags.size())),
       place_of_tag_(comm, slice.node_tags, numbered_from(first_place(), slice.node_tags.size())),
       ids_(slice.node_tags.size(), none) {
   const auto by_place = [](const auto& a, const auto& b) { return a.place < b.place; };
@@ -52,10 +52,7 @@ template <int dim>
 std::vector<int> FileNodes<dim>::holders_of(const std::vector<GlobalId>& places) const {
   std::vector<int> holders;
   holders.reserve(places.size());
-  for (const GlobalId place : places) {
-    const auto next = std::upper_bound(first_places_.begin(), first_places_.end(), place);
-    holders.push_back(static_cast<int>(next - first_places_.begin()) - 1);
-  }
+  for (const GlobalId place : places) holders.push_back(places_.holder(place));
   return holders;
 }
 
@@ -68,9 +65,9 @@ std::vector<UsedNode<dim>> FileNodes<dim>::use(const std::vector<GlobalId>& plac
   check_flat();
   check_size();
   const auto n_here = static_cast<std::size_t>(std::count(ids_.begin(), ids_.end(), unnumbered));
-  const std::vector<GlobalId> first_ids = first_items(comm_, n_here);
-  n_used_ = first_ids.back();
-  GlobalId next = first_ids[static_cast<std::size_t>(comm_.getRank())];
+  const auto ids = base::Slices::of(comm_, n_here);
+  n_used_ = ids.n();
+  GlobalId next = ids.begin(comm_.getRank());
   for (GlobalId& id : ids_) {
     if (id != none) id = next++;
   }

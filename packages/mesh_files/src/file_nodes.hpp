@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh_file.hpp"
+#include "perimorph/base/slices.hpp"
 #include "remarks.hpp"
 #include "tag_directory.hpp"
 
@@ -68,7 +69,7 @@ class FileNodes {
  private:
   std::vector<int> holders_of(const std::vector<GlobalId>& places) const;
   std::size_t index_of(GlobalId place) const { return static_cast<std::size_t>(place - first_place()); }
-  GlobalId first_place() const { return first_places_[static_cast<std::size_t>(comm_.getRank())]; }
+  GlobalId first_place() const { return places_.begin(comm_.getRank()); }
   void check_flat() const;
   void check_size() const;
   std::array<double, dim> scaled(std::size_t index) const;
@@ -78,7 +79,7 @@ class FileNodes {
   const MeshFile& slice_;
   double scale_;
   const Remarks& remarks_;
-  std::vector<GlobalId> first_places_;  // of each rank, and the number of all
+  base::Slices places_;
   TagDirectory place_of_tag_;
   std::vector<GlobalId> ids_;  // in the mesh, of the slice's nodes
   GlobalId n_used_ = 0;

@@ -10,6 +10,7 @@
 #include "file_nodes.hpp"
 #include "over_ranks.hpp"
 #include "part_sides.hpp"
+#include "perimorph/base/slices.hpp"
 #include "perimorph/base/text.hpp"
 #include "perimorph/mesh/distribute.hpp"
 #include "perimorph/mesh/orientation.hpp"
@@ -192,14 +193,14 @@ class MeshBuilder {
   }
 
   void number_elements() {
-    const std::vector<GlobalId> first = first_items(comm_, file_tags_.size());
+    const auto slices = base::Slices::of(comm_, file_tags_.size());
     mesh_.rank = comm_.getRank();
+    first_element_ = slices.begin(mesh_.rank);
     mesh_.element_ids.resize(file_tags_.size());
-    std::iota(mesh_.element_ids.begin(), mesh_.element_ids.end(), first[mesh_.rank]);
+    std::iota(mesh_.element_ids.begin(), mesh_.element_ids.end(), first_element_);
     mesh_.n_owned_elements = mesh_.n_elements();
     mesh_.element_owners.assign(file_tags_.size(), mesh_.rank);
-    mesh_.n_global_elements = first.back();
-    first_element_ = first[mesh_.rank];
+    mesh_.n_global_elements = slices.n();
   }
 
   /// @param nodes that the corners are numbers in; they become the mesh's by ascending id

@@ -6,22 +6,11 @@
 
 #include "perimorph/base/parallel.hpp"
 
-// What ranks must know of each other's shares of a list, or of what each has found in its own.
+// What ranks must know of what each has found.
 
 namespace perimorph::mesh_files {
 
 using base::GlobalId;
-
-/// A list whose items are on all ranks, those of rank 0 first: which item is the first of each rank, and, as the last
-/// number, how many there are, (n_ranks + 1). Collective.
-/// @param n items of this rank
-inline std::vector<GlobalId> first_items(const base::Comm& comm, std::size_t n) {
-  std::vector<GlobalId> first = {0};
-  for (const GlobalId count : base::gather_on_all(comm, std::vector<GlobalId>{static_cast<GlobalId>(n)})) {
-    first.push_back(first.back() + count);
-  }
-  return first;
-}
 
 /// The least of what the ranks have found, by some order, of the lowest rank if several are alike; nothing if no rank
 /// has found anything. Collective.

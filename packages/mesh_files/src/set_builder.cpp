@@ -120,15 +120,11 @@ class SetBuilder {
     std::vector<GlobalId> items(part_.node_ids.begin(), part_.node_ids.begin() + part_.n_owned_nodes);
     std::copy_if(ids_.begin(), ids_.end(), std::back_inserter(items), [](GlobalId id) { return id != none; });
     const base::Directory directory(comm_, n_nodes, items);
-    std::vector<int> owners(items.size(), unknown), slice(directory.n_here(), unknown);
+    std::vector<int> owners(items.size(), unknown);
     std::fill_n(owners.begin(), part_.n_owned_nodes, comm_.getRank());
-    const auto told = directory.tell(owners);
-    for (std::size_t rank = 0; rank < told.size(); ++rank) {
-      for (std::size_t i = 0; i < told[rank].size(); ++i) {
-        if (told[rank][i] != unknown) slice[directory.known()[rank][i]] = told[rank][i];
-      }
-    }
-    owners = directory.answer_all(slice);
+    owners = directory.answers(directory.collect(owners, unknown, [](int& owner, int said) {
+      if (said != unknown) owner = said;
+    }));
     auto next = owners.begin() + part_.n_owned_nodes;
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       if (ids_[i] != none) owners_[i] = *next++;
@@ -150,7 +146,7 @@ class SetBuilder {
   void read_elements() {
     nodes_to_.resize(static_cast<std::size_t>(comm_.getSize()));
     elements_to_.resize(nodes_to_.size());
-    const GlobalId first = first_items(comm_, elements_.size())[static_cast<std::size_t>(comm_.getRank())];
+    const GlobalId first = base::Slices::of(comm_, elements_.size()).begin(comm_.getRank());
     auto number = numbers_.begin();
     for (std::size_t i = 0; i < elements_.size(); ++i) {
       const std::size_t e = elements_[i];

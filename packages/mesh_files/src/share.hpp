@@ -34,9 +34,6 @@ struct Share {
 
   /// In a list of n items; n * n_ranks must fit 63 bits.
   Range of(std::int64_t n) const { return {n * rank / n_ranks, n * (rank + 1) / n_ranks}; }
-
-  /// The rank with an item of a list of n.
-  int owner(std::int64_t place, std::int64_t n) const { return static_cast<int>(((place + 1) * n_ranks - 1) / n); }
 };
 
 }  // namespace perimorph::mesh_files

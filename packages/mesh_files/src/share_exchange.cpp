@@ -2,18 +2,12 @@
 
 #include <algorithm>
 
-#include "perimorph/base/errors.hpp"
-#include "share.hpp"
+#include "homes.hpp"
+#include "perimorph/base/directory.hpp"
 
 namespace perimorph::mesh_files {
 
 namespace {
-
-/// One rank alone needs no MPI, which may not even run.
-template <class T>
-std::vector<std::vector<T>> exchange(const base::Comm& comm, std::vector<std::vector<T>> outgoing) {
-  return comm.getSize() == 1 ? std::move(outgoing) : base::exchange(comm, outgoing);
-}
 
 template <class T>
 std::vector<T> joined(const std::vector<std::vector<T>>& parts) {
@@ -27,28 +21,20 @@ bool has_equal_neighbours(const std::vector<T>& ascending) {
   return std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end();
 }
 
-/// Spreads numbers evenly, whatever their pattern: the last step of the generator SplitMix64.
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31U);
-}
+using mesh_files::home_of;
 
-std::size_t home_of(std::int64_t number, int n_ranks) {
-  return mixed(static_cast<std::uint64_t>(number)) % static_cast<std::uint64_t>(n_ranks);
-}
-
-std::size_t home_of(const Edge& edge, int n_ranks) {
-  const std::uint64_t both = mixed(static_cast<std::uint64_t>(edge[0])) + static_cast<std::uint64_t>(edge[1]);
-  return mixed(both) % static_cast<std::uint64_t>(n_ranks);
+int home_of(const Edge& edge, int n_ranks) {
+  const std::uint64_t first = mixed(static_cast<std::uint64_t>(edge[0]));
+  return home_of(static_cast<std::int64_t>(first + static_cast<std::uint64_t>(edge[1])), n_ranks);
 }
 
 /// Sends each item to the rank that answers for it.
 template <class T>
-std::vector<std::vector<T>> sent_home(const base::Comm& comm, const std::vector<T>& items) {
-  std::vector<std::vector<T>> outgoing(comm.getSize());
-  for (const T& item : items) outgoing[home_of(item, comm.getSize())].push_back(item);
-  return exchange(comm, std::move(outgoing));
+base::Inquiry<T> sent_home(const base::Comm& comm, const std::vector<T>& items) {
+  std::vector<int> homes;
+  homes.reserve(items.size());
+  for (const T& item : items) homes.push_back(home_of(item, comm.getSize()));
+  return {comm, std::move(homes), items};
 }
 
 }  // namespace
@@ -61,25 +47,17 @@ bool are_all_different(const base::Comm& comm, std::vector<std::int64_t> numbers
   };
   if (have_two_alike_anywhere(numbers)) return false;
   if (comm.getSize() == 1) return true;
-  std::vector<std::int64_t> received = joined(sent_home(comm, numbers));
+  std::vector<std::int64_t> received = joined(sent_home(comm, numbers).received());
   return !have_two_alike_anywhere(received);
 }
 
 std::vector<std::int64_t> items_at(const base::Comm& comm, const std::vector<std::int64_t>& own, std::int64_t n,
                                    const std::vector<std::int64_t>& places) {
-  const Share share = {comm.getRank(), comm.getSize()};
-  PERIMORPH_ASSERT(static_cast<std::int64_t>(own.size()) == share.of(n).size(), "{} items, not {}", own.size(),
-                   share.of(n).size());
   std::vector<std::int64_t> needed = places;
   std::sort(needed.begin(), needed.end());
   needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-  std::vector<std::vector<std::int64_t>> requests(comm.getSize());
-  for (const std::int64_t place : needed) requests[static_cast<std::size_t>(share.owner(place, n))].push_back(place);
-  auto answers = exchange(comm, std::move(requests));
-  for (auto& answer : answers) {
-    for (std::int64_t& item : answer) item = own[static_cast<std::size_t>(item - share.of(n).begin)];
-  }
-  const std::vector<std::int64_t> found = joined(exchange(comm, std::move(answers)));  // in the order of needed
+  const std::vector<base::GlobalId> numbers(needed.begin(), needed.end());
+  const auto found = base::Directory(comm, n, numbers).answers(own);  // in the order of needed
   std::vector<std::int64_t> items;
   items.reserve(places.size());
   for (const std::int64_t place : places) {
@@ -90,7 +68,7 @@ std::vector<std::int64_t> items_at(const base::Comm& comm, const std::vector<std
 }
 
 BoundaryEdges::BoundaryEdges(const base::Comm& comm, const std::vector<Edge>& edges) {
-  std::vector<Edge> received = joined(sent_home(comm, edges));
+  std::vector<Edge> received = joined(sent_home(comm, edges).received());
   std::sort(received.begin(), received.end());
   for (std::size_t i = 0, end = 0; i < received.size(); i = end) {
     for (end = i + 1; end < received.size() && received[end] == received[i];) ++end;
@@ -100,20 +78,9 @@ BoundaryEdges::BoundaryEdges(const base::Comm& comm, const std::vector<Edge>& ed
 }
 
 std::vector<char> BoundaryEdges::have(const base::Comm& comm, const std::vector<Edge>& edges) const {
-  const auto incoming = sent_home(comm, edges);
-  std::vector<std::vector<char>> answers;
-  for (const auto& asked : incoming) {
-    auto& answer = answers.emplace_back();
-    for (const Edge& edge : asked) answer.push_back(std::binary_search(edges_.begin(), edges_.end(), edge) ? 1 : 0);
-  }
-  const auto answered = exchange(comm, std::move(answers));
-  std::vector<std::size_t> n_used(answered.size(), 0);
-  std::vector<char> found;
-  for (const Edge& edge : edges) {
-    const std::size_t home = home_of(edge, comm.getSize());
-    found.push_back(answered[home][n_used[home]++]);
-  }
-  return found;
+  return sent_home(comm, edges).answers<char>([&](const Edge& edge) -> char {
+    return std::binary_search(edges_.begin(), edges_.end(), edge) ? 1 : 0;
+  });
 }
 
 }  // namespace perimorph::mesh_files

@@ -1,19 +1,9 @@
 #include "tag_directory.hpp"
 
+#include "homes.hpp"
 #include "perimorph/base/inquiry.hpp"
 
 namespace perimorph::mesh_files {
-
-namespace {
-
-/// All bits of a number mixed (the end of SplitMix64), so that numbers with any regular gaps spread over the ranks.
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
-
-}  // namespace
 
 TagDirectory::TagDirectory(const base::Comm& comm, const std::vector<std::int64_t>& tags,
                            const std::vector<GlobalId>& places)
@@ -34,12 +24,9 @@ TagDirectory::TagDirectory(const base::Comm& comm, const std::vector<std::int64_
 }
 
 std::vector<int> TagDirectory::homes_of(const std::vector<std::int64_t>& tags) const {
-  const auto n_ranks = static_cast<std::uint64_t>(comm_.getSize());
   std::vector<int> homes;
   homes.reserve(tags.size());
-  for (const std::int64_t tag : tags) {
-    homes.push_back(static_cast<int>(mixed(static_cast<std::uint64_t>(tag)) % n_ranks));
-  }
+  for (const std::int64_t tag : tags) homes.push_back(home_of(tag, comm_.getSize()));
   return homes;
 }
 

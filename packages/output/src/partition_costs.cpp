@@ -45,18 +45,12 @@ base::Directory directory_of(const base::Comm& comm, const mesh::Mesh<dim>& part
 
 template <int dim>
 std::vector<double> in_slices(const base::Comm& comm, const mesh::Mesh<dim>& part, const std::vector<double>& costs) {
-  const auto directory = directory_of(comm, part);
-  const auto told = directory.tell(costs);
-  std::vector<double> slice(directory.n_here());
-  for (std::size_t rank = 0; rank < told.size(); ++rank) {
-    for (std::size_t i = 0; i < told[rank].size(); ++i) slice[directory.known()[rank][i]] = told[rank][i];
-  }
-  return slice;
+  return directory_of(comm, part).collect(costs);
 }
 
 template <int dim>
 std::vector<double> costs_of(const base::Comm& comm, const mesh::Mesh<dim>& part, const std::vector<double>& slice) {
-  return directory_of(comm, part).answer_all(slice);
+  return directory_of(comm, part).answers(slice);
 }
 
 template <int dim>

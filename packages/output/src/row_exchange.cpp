@@ -27,33 +27,12 @@ void for_each_batch(const base::Comm& comm, std::size_t n_rows, const Exchange& 
 
 }  // namespace
 
-RowHolders RowHolders::evenly(const base::Comm& comm, GlobalId n_rows) {
-  RowHolders holders;
-  for (int rank = 0; rank <= comm.getSize(); ++rank) {
-    holders.first_.push_back(base::first_of_share(comm, n_rows, rank));
-  }
-  return holders;
-}
-
-RowHolders RowHolders::as_they_are(const base::Comm& comm, std::size_t n_rows_here) {
-  RowHolders holders;
-  holders.first_ = {0};
-  for (const GlobalId n : base::gather_on_all(comm, std::vector<GlobalId>{static_cast<GlobalId>(n_rows_here)})) {
-    holders.first_.push_back(holders.first_.back() + n);
-  }
-  return holders;
-}
-
-int RowHolders::holder_of(GlobalId row) const {
-  PERIMORPH_ASSERT(row >= 0 && row < n_rows(), "row {} of {}", row, n_rows());
-  return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), row) - first_.begin()) - 1;
-}
-
-std::vector<double> rows_to_holders(const base::Comm& comm, const RowHolders& holders, const std::vector<GlobalId>& ids,
-                                    std::size_t width, const std::vector<double>& values) {
+std::vector<double> rows_to_holders(const base::Comm& comm, const base::Slices& holders,
+                                    const std::vector<GlobalId>& ids, std::size_t width,
+                                    const std::vector<double>& values) {
   const int here = comm.getRank();
-  const GlobalId first = holders.first_of(here);
-  std::vector<double> held(static_cast<std::size_t>(holders.first_of(here + 1) - first) * width);
+  const GlobalId first = holders.begin(here);
+  std::vector<double> held(holders.size(here) * width);
   const auto hold = [&](GlobalId id, std::vector<double>::const_iterator row) {
     std::copy_n(row, width, held.begin() + (id - first) * static_cast<GlobalId>(width));
   };
@@ -64,7 +43,7 @@ std::vector<double> rows_to_holders(const base::Comm& comm, const RowHolders& ho
       PERIMORPH_ASSERT(values.size() == ids.size() * width, "{} values in {} rows", values.size(), ids.size());
       for (std::size_t i = begin; i < end; ++i) {
         const auto row = static_cast<GlobalId>(i);
-        const int holder = holders.holder_of(ids[i]);
+        const int holder = holders.holder(ids[i]);
         if (holder == here) hold(ids[i], values.begin() + row * static_cast<GlobalId>(width));
         if (holder != here) ids_to[holder].push_back(ids[i]);
         if (holder != here) append_row(values_to[holder], values, row, width);
@@ -83,21 +62,21 @@ std::vector<double> rows_to_holders(const base::Comm& comm, const RowHolders& ho
   return held;
 }
 
-RowExchange::RowExchange(const base::Comm& comm, RowHolders holders, std::vector<GlobalId> elements)
+RowExchange::RowExchange(const base::Comm& comm, base::Slices holders, std::vector<GlobalId> elements)
     : comm_(comm), holders_(std::move(holders)), elements_(std::move(elements)), questions_(ask(elements_)) {}
 
 /// Tells the holders of the rows of some elements; returns those of which each rank tells this one. Collective.
 std::vector<std::vector<GlobalId>> RowExchange::ask(const std::vector<GlobalId>& elements) const {
   std::vector<std::vector<GlobalId>> asked(comm_.getSize());
   base::on_all_ranks(comm_, [&] {
-    for (const GlobalId element : elements) asked[holders_.holder_of(element)].push_back(element);
+    for (const GlobalId element : elements) asked[holders_.holder(element)].push_back(element);
   });
   return base::exchange(comm_, asked);
 }
 
 std::vector<double> RowExchange::fetch(std::size_t width, const std::vector<double>& values) const {
   const int here = comm_.getRank();
-  const GlobalId first = holders_.first_of(here);
+  const GlobalId first = holders_.begin(here);
   std::vector<double> fetched;
   fetched.reserve(elements_.size() * width);
   for_each_batch(comm_, elements_.size(), [&](std::size_t begin, std::size_t end) {
@@ -112,7 +91,7 @@ std::vector<double> RowExchange::fetch(std::size_t width, const std::vector<doub
     answers = base::exchange(comm_, answers);
     std::vector<GlobalId> next(comm_.getSize(), 0);  // row of each holder's answer, in the order of questions
     for (const GlobalId element : batch) {
-      const int holder = holders_.holder_of(element);
+      const int holder = holders_.holder(element);
       if (holder == here) append_row(fetched, values, element - first, width);
       if (holder != here) append_row(fetched, answers[holder], next[holder]++, width);
     }

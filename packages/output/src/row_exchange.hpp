@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "perimorph/base/parallel.hpp"
+#include "perimorph/base/slices.hpp"
 #include "perimorph/elements/reference_element.hpp"
 
 // Rows of elements and records of bonds on their way between the ranks that own elements and those that hold slices of
@@ -12,28 +12,11 @@
 
 namespace perimorph::output {
 
-/// Which rank holds which of the rows of elements: some each, in order.
-class RowHolders {
- public:
-  /// About as many rows on each rank. Local.
-  static RowHolders evenly(const base::Comm& comm, base::GlobalId n_rows);
-
-  /// With so many rows on this rank. Collective.
-  static RowHolders as_they_are(const base::Comm& comm, std::size_t n_rows_here);
-
-  base::GlobalId n_rows() const { return first_.back(); }
-  base::GlobalId first_of(int rank) const { return first_[rank]; }
-  /// @param row below n_rows()
-  int holder_of(base::GlobalId row) const;
-
- private:
-  std::vector<base::GlobalId> first_;  ///< of each rank, and n_rows()
-};
-
 /// The rows that this rank is to hold, out of those that all ranks own. Collective.
+/// @param holders who holds which rows
 /// @param ids of the rows that this rank owns
 /// @param values (ids.size(), width)
-std::vector<double> rows_to_holders(const base::Comm& comm, const RowHolders& holders,
+std::vector<double> rows_to_holders(const base::Comm& comm, const base::Slices& holders,
                                     const std::vector<base::GlobalId>& ids, std::size_t width,
                                     const std::vector<double>& values);
 
@@ -41,7 +24,7 @@ std::vector<double> rows_to_holders(const base::Comm& comm, const RowHolders& ho
 class RowExchange {
  public:
   /// Asks for the rows of some elements. Collective. @param elements each once
-  RowExchange(const base::Comm& comm, RowHolders holders, std::vector<base::GlobalId> elements);
+  RowExchange(const base::Comm& comm, base::Slices holders, std::vector<base::GlobalId> elements);
 
   /// The rows of those elements. Collective. @param values of the rows that this rank holds, (n_rows_here, width)
   std::vector<double> fetch(std::size_t width, const std::vector<double>& values) const;
@@ -55,7 +38,7 @@ class RowExchange {
   using Asker = std::pair<base::GlobalId, int>;  ///< an element, and a rank that asks for its row
 
   const base::Comm& comm_;
-  RowHolders holders_;
+  base::Slices holders_;
   std::vector<base::GlobalId> elements_;
   std::vector<std::vector<base::GlobalId>> questions_;  ///< the elements for whose rows each rank asks this one
 

@@ -164,7 +164,7 @@ io::Checkpoint slice_state(const base::Comm& comm, const SavedState<dim>& state,
   describe_bonds(row_writer, slice);
 
   const auto n_elements = base::sum(comm, static_cast<GlobalId>(owned_elements.size()));
-  const auto holders = RowHolders::evenly(comm, n_elements);
+  const auto holders = base::Slices::even(comm, n_elements);
   const auto write = [&](const char* name, const std::vector<double>& values) {
     checkpoint.number_rows[name] = {width, rows_to_holders(comm, holders, owned_elements, width, values)};
   };
@@ -187,7 +187,7 @@ SavedState<dim> share_state(const base::Comm& comm, const io::Checkpoint& sliced
   describe_bonds(row_reader, slice);
 
   const auto& displacement = sliced.number_rows.at(displacement_name);
-  const RowExchange rows(comm, RowHolders::as_they_are(comm, displacement.n_rows()),
+  const RowExchange rows(comm, base::Slices::of(comm, displacement.n_rows()),
                          {mesh.element_ids.begin(), mesh.element_ids.begin() + mesh.n_real_elements()});
   state.displacement = rows.fetch(displacement.width, displacement.values);
   const auto starts = sliced.number_rows.find(starts_name);  // on all ranks or none

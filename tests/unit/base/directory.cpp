@@ -18,19 +18,31 @@ std::vector<GlobalId> some_items(const Comm& comm, GlobalId n) {
   return items;
 }
 
-TEST(Directory, AnItemsHolderIsTheRankInWhoseSliceItIs) {
-  const auto comm = Tpetra::getDefaultComm();
-  for (const GlobalId n : {1, 2, 3, 7, 100}) {
-    const Directory directory(*comm, n, {});
-    EXPECT_EQ(directory.begin(0), 0);
-    EXPECT_EQ(directory.begin(comm->getSize()), n);
-    for (GlobalId item = 0; item < n; ++item) {
-      const int holder = directory.holder(item);
-      EXPECT_LE(directory.begin(holder), item);
-      EXPECT_LT(item, directory.begin(holder + 1));
-    }
-    EXPECT_EQ(sum(*comm, static_cast<GlobalId>(directory.n_here())), n);
+void expect_holders(const Comm& comm, const Slices& slices) {
+  EXPECT_EQ(slices.begin(0), 0);
+  EXPECT_EQ(slices.begin(comm.getSize()), slices.n());
+  for (GlobalId item = 0; item < slices.n(); ++item) {
+    const int holder = slices.holder(item);
+    EXPECT_LE(slices.begin(holder), item);
+    EXPECT_LT(item, slices.begin(holder + 1));
   }
+  EXPECT_THROW(slices.holder(-1), Bug);
+  EXPECT_THROW(slices.holder(slices.n()), Bug);
+}
+
+TEST(Slices, AnItemsHolderIsTheRankInWhoseSliceItIs) {
+  const auto comm = Tpetra::getDefaultComm();
+  const int rank = comm->getRank(), n_ranks = comm->getSize();
+  for (const GlobalId n : {1, 2, 3, 7, 100, 1000}) {
+    const auto even = Slices::even(*comm, n);
+    EXPECT_EQ(even.n(), n);
+    expect_holders(*comm, even);
+    EXPECT_EQ(sum(*comm, static_cast<GlobalId>(even.size(rank))), n);
+    EXPECT_NEAR(static_cast<double>(even.size(rank)), static_cast<double>(n) / n_ranks, 1.);
+  }
+  const auto uneven = Slices::of(*comm, rank % 2 == 0 ? 3 * rank : 0);  // the first has nothing
+  expect_holders(*comm, uneven);
+  EXPECT_EQ(uneven.size(rank), rank % 2 == 0 ? 3U * rank : 0U);
 }
 
 TEST(Directory, WhatAllRanksSayOfAnItemComesTogetherAndTheAnswerGoesToEachOfThem) {
@@ -38,23 +50,22 @@ TEST(Directory, WhatAllRanksSayOfAnItemComesTogetherAndTheAnswerGoesToEachOfThem
   constexpr GlobalId n = 23;
   const auto items = some_items(*comm, n);
   const Directory directory(*comm, n, items);
+  const GlobalId first = directory.slices().begin(comm->getRank());
 
-  std::vector<int> how_many(directory.n_here(), 0);
-  const auto told = directory.tell(std::vector<GlobalId>(items));
-  for (std::size_t rank = 0; rank < told.size(); ++rank) {
-    ASSERT_EQ(told[rank].size(), directory.known()[rank].size());
-    for (std::size_t i = 0; i < told[rank].size(); ++i) {
-      EXPECT_EQ(told[rank][i], directory.begin(comm->getRank()) + directory.known()[rank][i]);
-      ++how_many[directory.known()[rank][i]];
-    }
-  }
-  const auto counts = directory.answer_all(how_many);
+  const auto added = directory.collect(items, GlobalId{0}, [](GlobalId& sum, GlobalId item) { sum += item + 1; });
+  const auto counts = directory.answers(added);
+  const auto themselves = directory.collect(items);
 
   ASSERT_EQ(counts.size(), items.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
-    int expected = 0;
-    for (int rank = 0; rank < std::max(1, comm->getSize() - 1); ++rank) expected += items[i] % (rank + 2) == 0;
-    EXPECT_EQ(counts[i], expected) << items[i];
+    GlobalId n_copies = 0;
+    for (int rank = 0; rank < std::max(1, comm->getSize() - 1); ++rank) n_copies += items[i] % (rank + 2) == 0 ? 1 : 0;
+    EXPECT_EQ(counts[i], n_copies * (items[i] + 1)) << items[i];
+  }
+  ASSERT_EQ(themselves.size(), directory.n_here());
+  for (std::size_t i = 0; i < themselves.size(); ++i) {
+    const GlobalId item = first + static_cast<GlobalId>(i);
+    EXPECT_EQ(themselves[i], added[i] > 0 ? item : 0);
   }
 }
 
@@ -69,7 +80,7 @@ TEST(Directory, ThereMayBeNothing) {
   const auto comm = Tpetra::getDefaultComm();
   const Directory directory(*comm, 0, {});
   EXPECT_EQ(directory.n_here(), 0U);
-  EXPECT_TRUE(directory.answer_all(std::vector<int>()).empty());
+  EXPECT_TRUE(directory.answers(std::vector<int>()).empty());
 }
 
 }  // namespace

@@ -70,17 +70,6 @@ TEST(Shares, TheFirstRanksOfManyHaveNothingOfASmallFile) {
   EXPECT_EQ(read_gmsh_file(file, {99, 100}).node_tags.size(), 1u);
 }
 
-TEST(Shares, TheOwnerOfAPlaceIsTheRankThatHasItInItsShare) {
-  for (const std::int64_t n : {1, 2, 6, 7, 8, 1000}) {
-    for (const int n_ranks : {1, 2, 3, 7, 64}) {
-      for (std::int64_t place = 0; place < n; ++place) {
-        const Share share = {Share{0, n_ranks}.owner(place, n), n_ranks};
-        EXPECT_TRUE(share.of(n).has(place)) << place << " of " << n << ", " << n_ranks << " ranks";
-      }
-    }
-  }
-}
-
 TEST(Shares, WhichFilesCanBeSliced) {
   EXPECT_TRUE(can_be_sliced(written("mesh.msh", two_squares_4_1)));
   EXPECT_TRUE(can_be_sliced(written("mesh.msh", two_squares_2_2)));

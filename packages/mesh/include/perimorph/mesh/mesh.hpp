@@ -43,7 +43,7 @@ struct HangingNode {
 };
 
 /// The reference mesh, or the part of it that one rank holds: its own elements and a halo of its neighbours'.
-/// As read from a file it is whole, lies on rank 0 and belongs to rank 0; distribute() gives every rank its part.
+/// A whole one lies on rank 0 and belongs to rank 0, other ranks have nothing; distribute() gives every rank its part.
 /// Nothing in it changes afterwards: elements that become discontinuous change only degrees of freedom.
 ///
 /// Local indices are ints. Local elements are ordered: owned ones first, then the halo, each by ascending global id.

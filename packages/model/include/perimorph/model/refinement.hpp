@@ -9,7 +9,7 @@ namespace perimorph::model {
 
 /// The whole mesh of a body, refined where the peridynamic zone is and where its cracks will soon take it. It follows
 /// from the root mesh, the problem and the flag points, so that it need not be saved. On rank 0; other ranks have an
-/// empty mesh, and the same answers.
+/// empty mesh, and the same answers. A mesh that stays as it is may also be in parts.
 template <int dim>
 class Refinement {
  public:
@@ -17,7 +17,7 @@ class Refinement {
 
   /// Refined around seeds, and around pre-cracks that cut through elements, which may then run along sides of smaller
   /// ones, and open. Collective; the problem must outlive this.
-  /// @param root the mesh of the case, whole, on rank 0
+  /// @param root the mesh of the case, whole, on rank 0; or, if it is to stay as it is, what each rank has of it
   /// @throws UserError on all ranks if elements would have to be divided that cannot be
   Refinement(Teuchos::RCP<const base::Comm> comm, mesh::Mesh<dim> root, const Problem<dim>& problem,
              const NumericalOptions& options);
